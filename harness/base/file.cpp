@@ -1,0 +1,101 @@
+#include "base/file.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+template <class Container>
+Container read_all(const fs::path& path) {
+  std::error_code ec;
+  if (fs::is_directory(path, ec)) throw fail(ErrorKind::output, "{}: is a folder, not a file", path.string());
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw fail(ErrorKind::output, "{}: cannot be read: {}", path.string(), std::strerror(errno));
+  const auto size = fs::file_size(path, ec);
+  Container out(ec ? 0 : size, '\0');
+  in.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));
+  if (in.bad()) throw fail(ErrorKind::output, "{}: read error", path.string());
+  out.resize(static_cast<size_t>(in.gcount()));
+  return out;
+}
+
+fs::path temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> serial{0};
+  return path.parent_path() /
+         fmt::format(".{}.{}.{}.tmp{}", path.stem().string(), ::getpid(), serial++, path.extension().string());
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& path) { return read_all<std::string>(path); }
+std::vector<uint8_t> read_bytes(const fs::path& path) { return read_all<std::vector<uint8_t>>(path); }
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  std::error_code ec;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), ec);
+  if (ec) {
+    throw fail(ErrorKind::output, "{}: cannot create the folder: {}", path.parent_path().string(),
+               ec.message());
+  }
+  const fs::path temporary = temporary_beside(path);
+  try {
+    write(temporary);
+    fs::rename(temporary, path);
+  } catch (const std::exception& e) {
+    fs::remove(temporary, ec);
+    throw fail(ErrorKind::output, "{}: cannot be written: {}", path.string(), e.what());
+  }
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+  write_atomically(path, [&](const fs::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.flush();
+    if (!out) throw std::runtime_error(std::strerror(errno));
+  });
+}
+
+void ensure_writable_directory(const fs::path& dir) {
+  std::error_code ec;
+  fs::create_directories(dir, ec);
+  if (ec) throw fail(ErrorKind::output, "{}: cannot create the folder: {}", dir.string(), ec.message());
+  const fs::path probe = dir / fmt::format(".probe.{}", ::getpid());
+  write_text(probe, "probe");
+  fs::remove(probe, ec);
+}
+
+fs::path cache_directory() {
+  const auto env = [](const char* name) -> std::string {
+    const char* v = std::getenv(name);
+    return v ? v : "";
+  };
+  if (auto v = env("VSGLBENCH_CACHE"); !v.empty()) return v;
+  if (auto v = env("XDG_CACHE_HOME"); !v.empty()) return fs::path(v) / "vsglbench";
+  if (auto v = env("HOME"); !v.empty()) return fs::path(v) / ".cache" / "vsglbench";
+  return fs::path(".cache") / "vsglbench";
+}
+
+fs::path data_root() {
+  if (const char* v = std::getenv("VSGLBENCH_ROOT"); v && *v) return v;
+  std::error_code ec;
+  const fs::path self = fs::read_symlink("/proc/self/exe", ec);
+  if (!ec) {
+    const fs::path installed = self.parent_path().parent_path() / "share" / "vsglbench";
+    if (fs::exists(installed / "harness" / "shaders", ec)) return installed;
+  }
+  return VSGLBENCH_SOURCE_DIR;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,331 @@
+#include "base/json.h"
+
+#include <functional>
+#include <regex>
+#include <set>
+
+#include "base/file.h"
+#include "base/nearest.h"
+
+namespace vsglbench {
+namespace {
+
+// The line of the last character that is not white space and that the parser has consumed.
+struct LineCounter {
+  int newlines = 0, line = 1;
+  void consume(char c) {
+    if (c == '\n') {
+      ++newlines;
+    } else if (c != ' ' && c != '\t' && c != '\r') {
+      line = newlines + 1;
+    }
+  }
+};
+
+struct CountingIterator {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  const char* at = nullptr;
+  LineCounter* counter = nullptr;
+  reference operator*() const { return *at; }
+  CountingIterator& operator++() {
+    counter->consume(*at++);
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    CountingIterator old = *this;
+    ++*this;
+    return old;
+  }
+  bool operator==(const CountingIterator& o) const { return at == o.at; }
+  bool operator!=(const CountingIterator& o) const { return at != o.at; }
+};
+
+// Builds the value and records a line for every pointer.
+class Builder : public nlohmann::json_sax<Json> {
+ public:
+  Builder(LineCounter& counter, std::map<std::string, int>& lines) : counter_(counter), lines_(lines) {}
+
+  Json root;
+  std::string problem;
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool v) override { return put(v); }
+  bool number_integer(number_integer_t v) override { return put(v); }
+  bool number_unsigned(number_unsigned_t v) override { return put(v); }
+  bool number_float(number_float_t v, const string_t&) override { return put(v); }
+  bool string(string_t& v) override { return put(v); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(size_t) override { return open(Json::object()); }
+  bool start_array(size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& k) override {
+    Level& top = stack_.back();
+    if (top.value->contains(k)) {
+      problem = fmt::format("the key '{}' stands here twice", k);
+      return false;
+    }
+    top.key = k;
+    key_line_ = counter_.line;
+    return true;
+  }
+  bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& e) override {
+    const std::string what = e.what();
+    const size_t colon = what.find(": ");  // drop "[json.exception…] parse error at line …"
+    problem = "not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2));
+    return false;
+  }
+
+ private:
+  struct Level {
+    Json* value;
+    std::string pointer, key;
+  };
+
+  Json* place(Json v) {
+    if (stack_.empty()) {
+      lines_[""] = counter_.line;
+      root = std::move(v);
+      pointer_ = "";
+      return &root;
+    }
+    Level& top = stack_.back();
+    if (top.value->is_array()) {
+      pointer_ = fmt::format("{}/{}", top.pointer, top.value->size());
+      top.value->push_back(std::move(v));
+      lines_[pointer_] = counter_.line;
+      return &top.value->back();
+    }
+    pointer_ = top.pointer + "/" + pointer_token(top.key);
+    lines_[pointer_] = key_line_;
+    return &((*top.value)[top.key] = std::move(v));
+  }
+  bool put(Json v) {
+    place(std::move(v));
+    return true;
+  }
+  bool open(Json v) {
+    if (stack_.size() >= 64) {
+      problem = "nested deeper than 64 levels";
+      return false;
+    }
+    Json* placed = place(std::move(v));
+    stack_.push_back({placed, pointer_, ""});
+    return true;
+  }
+  bool close() {
+    stack_.pop_back();
+    return true;
+  }
+
+  LineCounter& counter_;
+  std::map<std::string, int>& lines_;
+  std::vector<Level> stack_;
+  std::string pointer_;
+  int key_line_ = 1;
+};
+
+using Violation = std::function<void(const std::string& pointer, const std::string& message)>;
+
+bool has_type(const Json& v, const std::string& type) {
+  if (type == "object") return v.is_object();
+  if (type == "array") return v.is_array();
+  if (type == "string") return v.is_string();
+  if (type == "number") return v.is_number();
+  if (type == "integer") return v.is_number_integer();
+  if (type == "boolean") return v.is_boolean();
+  if (type == "null") return v.is_null();
+  throw std::logic_error("schema: unknown type " + type);
+}
+
+class SchemaChecker {
+ public:
+  SchemaChecker(const Json& root, Violation report) : root_(root), report_(std::move(report)) {}
+
+  void check(const Json& v, const Json& schema, const std::string& at) {
+    if (schema.is_boolean()) {
+      if (!schema.get<bool>()) report_(at, "is not allowed here");
+      return;
+    }
+    for (const auto& [keyword, rule] : schema.items()) {
+      if (keyword == "$ref") {
+        const std::string ref = rule.get<std::string>();
+        check(v, root_.at(Json::json_pointer(ref.substr(1))), at);
+      } else if (keyword == "type") {
+        check_type(v, rule, at);
+      } else if (keyword == "enum" || keyword == "const") {
+        check_enum(v, keyword == "const" ? Json::array({rule}) : rule, at);
+      } else if (keyword == "oneOf" || keyword == "anyOf") {
+        check_alternatives(v, rule, at);
+      } else if (v.is_object() && keyword == "required") {
+        for (const auto& k : rule) {
+          if (!v.contains(k.get<std::string>())) report_(at, fmt::format("lacks '{}'", k.get<std::string>()));
+        }
+      } else if (v.is_number() && is_bound(keyword)) {
+        check_bound(v.get<double>(), keyword, rule.get<double>(), at);
+      } else if (keyword == "minItems" || keyword == "minProperties" || keyword == "maxItems") {
+        check_count(v, keyword, rule.get<size_t>(), at);
+      } else if (v.is_string() && keyword == "minLength") {
+        if (v.get<std::string>().size() < rule.get<size_t>()) report_(at, "is empty or too short");
+      } else if (v.is_string() && keyword == "pattern") {
+        if (!std::regex_search(v.get<std::string>(), std::regex(rule.get<std::string>()))) {
+          report_(at, fmt::format("'{}' does not match {}", v.get<std::string>(), rule.get<std::string>()));
+        }
+      } else if (v.is_array() && keyword == "items") {
+        for (size_t i = 0; i < v.size(); ++i) check(v[i], rule, fmt::format("{}/{}", at, i));
+      } else if (!is_known(keyword)) {
+        throw std::logic_error("schema: unsupported keyword " + keyword);
+      }
+    }
+    if (v.is_object()) check_properties(v, schema, at);
+  }
+
+ private:
+  static bool is_bound(const std::string& k) {
+    return k == "minimum" || k == "maximum" || k == "exclusiveMinimum" || k == "exclusiveMaximum";
+  }
+  static bool is_known(const std::string& k) {
+    static const std::set<std::string> known = {
+        "$schema", "$id", "$defs", "title", "description", "default", "examples", "required", "minimum",
+        "maximum", "exclusiveMinimum", "exclusiveMaximum", "minLength", "pattern", "items", "properties",
+        "additionalProperties"};
+    return known.count(k) > 0;
+  }
+  void check_type(const Json& v, const Json& rule, const std::string& at) {
+    const Json types = rule.is_array() ? rule : Json::array({rule});
+    for (const auto& t : types) {
+      if (has_type(v, t.get<std::string>())) return;
+    }
+    std::string wanted;
+    for (const auto& t : types) wanted += (wanted.empty() ? "" : " or ") + t.get<std::string>();
+    report_(at, fmt::format("is {} but must be {}", v.is_object() || v.is_array() ? v.type_name() : v.dump(),
+                            wanted));
+  }
+  void check_enum(const Json& v, const Json& allowed, const std::string& at) {
+    std::vector<std::string> names;
+    for (const auto& a : allowed) {
+      if (a == v) return;
+      names.push_back(a.is_string() ? a.get<std::string>() : a.dump());
+    }
+    const std::string got = v.is_string() ? v.get<std::string>() : v.dump();
+    report_(at, fmt::format("'{}' is not allowed{}", got, suggestion(got, names)));
+  }
+  void check_alternatives(const Json& v, const Json& alternatives, const std::string& at) {
+    std::vector<std::pair<std::string, std::string>> best;
+    bool first = true;
+    for (const auto& alternative : alternatives) {
+      std::vector<std::pair<std::string, std::string>> found;
+      SchemaChecker inner(root_, [&](const std::string& p, const std::string& m) { found.emplace_back(p, m); });
+      inner.check(v, alternative, at);
+      if (found.empty()) return;
+      // The alternative that fails deepest is the one that was meant.
+      if (first || found.front().first.size() > best.front().first.size()) best = found;
+      first = false;
+    }
+    for (const auto& [p, m] : best) report_(p, m);
+  }
+  void check_bound(double v, const std::string& keyword, double bound, const std::string& at) {
+    if (keyword == "minimum" && !(v >= bound)) report_(at, fmt::format("{} must be at least {}", v, bound));
+    if (keyword == "maximum" && !(v <= bound)) report_(at, fmt::format("{} must be at most {}", v, bound));
+    if (keyword == "exclusiveMinimum" && !(v > bound)) report_(at, fmt::format("{} must be over {}", v, bound));
+    if (keyword == "exclusiveMaximum" && !(v < bound)) report_(at, fmt::format("{} must be under {}", v, bound));
+  }
+  void check_count(const Json& v, const std::string& keyword, size_t n, const std::string& at) {
+    if (keyword == "minItems" && v.is_array() && v.size() < n) {
+      report_(at, fmt::format("has {} items but needs {}", v.size(), n));
+    }
+    if (keyword == "maxItems" && v.is_array() && v.size() > n) {
+      report_(at, fmt::format("has {} items but may have {}", v.size(), n));
+    }
+    if (keyword == "minProperties" && v.is_object() && v.size() < n) {
+      report_(at, fmt::format("has {} keys but needs {}", v.size(), n));
+    }
+  }
+  void check_properties(const Json& v, const Json& schema, const std::string& at) {
+    const Json properties = schema.value("properties", Json::object());
+    for (const auto& [key, member] : v.items()) {
+      const std::string child = at + "/" + pointer_token(key);
+      if (properties.contains(key)) {
+        check(member, properties.at(key), child);
+      } else if (schema.contains("additionalProperties")) {
+        const Json& rule = schema.at("additionalProperties");
+        if (rule.is_boolean() && !rule.get<bool>()) {
+          std::vector<std::string> known;
+          for (const auto& [k, unused] : properties.items()) known.push_back(k);
+          report_(child, fmt::format("unknown key '{}'{}", key, suggestion(key, known)));
+        } else {
+          check(member, rule, child);
+        }
+      }
+    }
+  }
+
+  const Json& root_;
+  Violation report_;
+};
+
+}  // namespace
+
+std::string pointer_token(std::string_view key) {
+  std::string out;
+  for (const char c : key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return out;
+}
+
+JsonDocument JsonDocument::load(const std::filesystem::path& path, ErrorKind kind) {
+  std::string text;
+  try {
+    text = read_text(path);
+  } catch (const Error& e) {
+    throw Error(kind, e.what());
+  }
+  return parse(text, path.string(), kind);
+}
+
+JsonDocument JsonDocument::parse(std::string_view text, std::string name, ErrorKind kind) {
+  JsonDocument doc;
+  doc.name_ = std::move(name);
+  doc.kind_ = kind;
+  LineCounter counter;
+  Builder builder(counter, doc.lines_);
+  const CountingIterator begin{text.data(), &counter}, end{text.data() + text.size(), &counter};
+  if (!Json::sax_parse(begin, end, &builder, nlohmann::json::input_format_t::json, true, true)) {
+    throw fail(kind, "{}:{}: {}", doc.name_, counter.line, builder.problem);
+  }
+  doc.root_ = std::move(builder.root);
+  return doc;
+}
+
+int JsonDocument::line(std::string pointer) const {
+  for (;;) {
+    if (const auto it = lines_.find(pointer); it != lines_.end()) return it->second;
+    const size_t slash = pointer.rfind('/');
+    if (slash == std::string::npos) return 1;
+    pointer.resize(slash);
+  }
+}
+
+Error JsonDocument::error(const std::string& pointer, const std::string& message) const {
+  const std::string where = pointer.empty() ? "" : fmt::format("'{}' ", pointer.substr(1));
+  return fail(kind_, "{}:{}: {}{}", name_, line(pointer), where, message);
+}
+
+void check_schema(const JsonDocument& doc, const Json& schema) {
+  SchemaChecker(schema, [&](const std::string& at, const std::string& message) {
+    throw doc.error(at, message);
+  }).check(doc.root(), schema, "");
+}
+
+std::vector<std::string> schema_violations(const Json& value, const Json& schema) {
+  std::vector<std::string> out;
+  SchemaChecker(schema, [&](const std::string& at, const std::string& message) {
+    out.push_back(fmt::format("{}: {}", at.empty() ? "/" : at, message));
+  }).check(value, schema, "");
+  return out;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,21 @@
+#include "base/log.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace vsglbench {
+namespace {
+LogLevel current = LogLevel::normal;
+}
+
+void set_log_level(LogLevel level) { current = level; }
+
+void log_line(LogLevel level, const std::string& prefix, const std::string& message) {
+  if (level > current) return;
+  // A progress bar may stand on the line: clear it first.
+  const char* clear = ::isatty(STDERR_FILENO) ? "\r\x1b[K" : "";
+  fmt::print(stderr, "{}{}{}\n", clear, prefix, message);
+}
+
+}  // namespace vsglbench

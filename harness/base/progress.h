@@ -1,0 +1,30 @@
+// A progress bar with the time left, on a terminal; silent elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace vsglbench {
+
+class Progress {
+ public:
+  Progress(std::string label, uint64_t total);
+  ~Progress();  // clears the bar's line
+  void advance(uint64_t steps = 1);  // any thread
+  void label(std::string text);
+
+ private:
+  void draw();
+  std::string label_;
+  uint64_t total_, done_ = 0;
+  bool terminal_;
+  std::chrono::steady_clock::time_point start_, drawn_;
+  std::mutex mutex_;
+};
+
+// "3 s", "2 min 5 s", "1 h 3 min".
+std::string format_duration(double seconds);
+
+}  // namespace vsglbench
