@@ -1,0 +1,108 @@
+// One frame of the experiment [light-transport §1]: gbuffer, rsm, importance, generate, visibility, shade.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frame/scene_gpu.h"
+#include "frame/visibility.h"
+#include "image/image.h"
+#include "method/method.h"
+
+namespace vsglbench {
+
+// Parameters of a case that are not the method's own.
+struct FrameParameters {
+  uint32_t width = 480, height = 272;  // G-buffer
+  uint32_t rsm = 256;                  // RSM, texels a side
+  uint32_t lights = 256;               // N
+  uint32_t importance_lights = 2048;   // on the G-buffer; at most its number of pixels is used
+  Visibility visibility = Visibility::exact;
+  IsmParameters ism;
+};
+
+struct FrameTimes {
+  std::vector<PassTime> passes;  // in order of first appearance, one entry a name
+  double span_ms = 0, sum_ms = 0;  // span: first to last timestamp, summed over submissions
+  unsigned generate_dispatches = 0;
+};
+
+// What one scene's cases share: geometry, targets, kernels and scratch memory.
+class Stage {
+ public:
+  Stage(Device& device, KernelLibrary& kernels, const Scene& scene);
+  Device& device;
+  KernelLibrary& kernels;
+  const Scene& scene;
+  ScratchPool scratch;
+  SceneGpu geometry;
+  DeferredTargets& targets(Half half, uint32_t width, uint32_t height);
+  ImperfectShadowMaps& shadow_maps(const IsmParameters& parameters);
+
+ private:
+  std::map<std::string, std::unique_ptr<DeferredTargets>> targets_;
+  std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ImperfectShadowMaps>> shadow_maps_;
+};
+
+class Frame {
+ public:
+  // `exact` is called for Visibility::exact only. Throws Error(case_failed) for sizes the device can't take,
+  // N = 0 or N > texels.
+  Frame(Stage& stage, const MethodInfo& method, const Json& method_parameters, const FrameParameters& parameters,
+        ExactVisibility exact);
+  ~Frame();
+
+  // Renders with the lattice shift of `seed` (0: none). Waits for the device.
+  FrameTimes render(uint32_t seed);
+
+  // Results of the last render().
+  Image indirect() const;
+  std::vector<uint8_t> surface_mask() const;  // 1 where the camera sees a surface
+  LightKind light_kind() const { return method_->kind(); }
+  uint32_t light_count() const { return light_count_; }
+  std::vector<gpu::Vsgl> vsgls() const;  // empty when the lights are VPLs
+  std::vector<gpu::Vpl> vpls() const;
+  std::vector<float> importance() const;  // the PDF on the RSM, of any scale; empty when unused
+  const DeferredTargets& gbuffer() const { return *gbuffer_; }
+  const DeferredTargets& rsm() const { return *rsm_; }
+  const gpu::Emitter& camera() const { return camera_; }
+  const gpu::Emitter& light() const { return light_; }
+
+  // Direct light of the current view, outside any timing.
+  Image render_direct();
+
+ private:
+  void draw_halves(Recorder& recorder);
+  void make_importance(Recorder& recorder, glm::uvec2 shift);
+  void build_pdf_mips(Recorder& recorder, const Buffer& pdf, uint32_t width, uint32_t height);
+  void generate(Recorder& recorder, Half half, const Buffer& lights, uint32_t count, glm::uvec2 shift);
+  void shade(Recorder& recorder);
+  std::vector<LightPoint> light_points() const;
+  Buffer& pdf_buffer(Half half);
+  Buffer& light_buffer(Half half, uint32_t count);
+  Field field(Half half);
+
+  Stage& stage_;
+  FrameParameters parameters_;
+  MethodContext context_;
+  std::unique_ptr<Method> method_;
+  ExactVisibility exact_;
+  Recorder recorder_;
+  DeferredTargets *gbuffer_, *rsm_;
+  gpu::Emitter camera_{}, light_{};
+  Buffer camera_buffer_, light_view_buffer_;
+  uint32_t light_count_ = 0, importance_count_ = 0;
+  unsigned generate_dispatches_ = 0;
+  std::vector<LightPoint> traced_;   // the lights whose bits are in bits_
+  std::vector<uint32_t> bits_;
+};
+
+// Downloads one RGBA32F target.
+std::vector<glm::vec4> download_map(const DeviceImage& image);
+
+// Seed 0 leaves the lattice where it is; others shift it by a hash of the seed.
+glm::uvec2 lattice_shift(uint32_t seed);
+
+}  // namespace vsglbench

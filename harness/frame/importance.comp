@@ -1,0 +1,26 @@
+// BRSM: the lights made on the G-buffer shade every RSM texel, without visibility, with the texel's BRDF
+// towards the primary light; p ∝ luminance of (Φ × that) [VSGL14 §3; Ritschel 2011].
+#version 460
+#include "types.h"
+layout(local_size_x = 64) in;
+#include "field_maps.glsl"
+#include "field.glsl"
+#include "light_kind.glsl"
+layout(set = 0, binding = 5, scalar) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer Pdf { float pdf[]; };
+layout(push_constant, scalar) uniform Push {
+  Emitter emitter;
+  uint count;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= emitter.width * emitter.height) return;
+  Texel t;
+  bool surface = load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t);
+  vec3 sum = vec3(0.0);
+  Shader shader = make_shader(t.surface);
+  for (uint k = 0u; k < count; ++k) sum += shade_light(shader, lights[k]);
+  float p = luminance(t.flux * sum);
+  pdf[i] = surface && p > 0.0 && p < 3e38 ? p : 0.0;
+}

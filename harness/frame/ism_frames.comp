@@ -1,0 +1,24 @@
+// Origin and axis of each light's shadow map.
+#version 460
+#include "types.h"
+layout(local_size_x = 64) in;
+#if LIGHT_VPL
+layout(set = 0, binding = 0, scalar) readonly buffer Lights { Vpl lights[]; };
+#else
+layout(set = 0, binding = 0, scalar) readonly buffer Lights { Vsgl lights[]; };
+#endif
+layout(set = 0, binding = 1, std430) writeonly buffer Frames { vec4 frames[]; };
+layout(push_constant, scalar) uniform Push { uint count; };
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= count) return;
+#if LIGHT_VPL
+  frames[2u * k] = vec4(lights[k].position, 0.0);
+  frames[2u * k + 1u] = vec4(lights[k].geometric_normal, 0.0);
+#else
+  // Occluders nearer than one standard deviation belong to the light itself.
+  frames[2u * k] = vec4(lights[k].mean, sqrt(lights[k].variance));
+  frames[2u * k + 1u] = vec4(lights[k].diffuse_axis, 0.0);
+#endif
+}

@@ -1,0 +1,136 @@
+#include "frame/scene_gpu.h"
+
+#include <cstddef>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "method/context.h"
+
+namespace vsglbench {
+
+DeferredTargets::DeferredTargets(Device& device, const std::string& name, uint32_t w, uint32_t h)
+    : width(w), height(h) {
+  static constexpr const char* names[] = {"position", "normal", "geometric normal", "diffuse", "f0"};
+  for (size_t i = 0; i < maps.size(); ++i) {
+    maps[i] = DeviceImage(device, name + " " + names[i], VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  }
+  depth = DeviceImage(device, name + " depth", VK_FORMAT_D32_SFLOAT, w, h, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+}
+
+std::array<const DeviceImage*, 5> DeferredTargets::pointers() const {
+  return {&maps[0], &maps[1], &maps[2], &maps[3], &maps[4]};
+}
+
+gpu::Emitter make_emitter(const View& view, uint32_t width, uint32_t height, const glm::vec3& power,
+                          bool importance) {
+  return {.position = view.position,
+          .perspective = view.perspective ? 1u : 0u,
+          .forward = view.forward,
+          .width = width,
+          .right = view.right,
+          .height = height,
+          .up = view.up,
+          .footprint_cosine = 0.1f,
+          .extent = view.extent,
+          .power = power,
+          .importance = importance ? 1u : 0u};
+}
+
+SceneGpu::SceneGpu(Device& device, const Scene& scene) : triangles_(scene.triangles.size()) {
+  upload_geometry(device, scene);
+  upload_textures(device, scene);
+  make_draws(scene);
+  const auto folder = data_root() / "harness" / "frame";
+  const std::vector<VkFormat> targets(5, VK_FORMAT_R32G32B32A32_SFLOAT);
+  pipeline_ = RasterPipeline(device, folder / "gbuffer.vert", folder / "gbuffer.frag", {},
+                             KernelLibrary::include_dirs(), targets, sizeof(gpu::Vertex),
+                             {{VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::Vertex, position)},
+                              {VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::Vertex, normal)},
+                              {VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::Vertex, tangent)},
+                              {VK_FORMAT_R32G32_SFLOAT, offsetof(gpu::Vertex, uv)}});
+}
+
+void SceneGpu::upload_geometry(Device& device, const Scene& scene) {
+  std::vector<gpu::Vertex> vertices(scene.positions.size());
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i] = {scene.positions[i], scene.normals[i], scene.tangents[i], scene.uvs[i]};
+  }
+  vertices_ = Buffer(device, "vertices", vertices.size() * sizeof(gpu::Vertex));
+  vertices_.upload(std::span<const gpu::Vertex>(vertices));
+  indices_ = Buffer(device, "indices", scene.triangles.size() * sizeof(glm::uvec3));
+  indices_.upload(std::span<const glm::uvec3>(scene.triangles));
+  std::vector<glm::vec4> normals(scene.triangles.size());
+  for (size_t i = 0; i < normals.size(); ++i) {
+    const glm::uvec3 t = scene.triangles[i];
+    const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    // A triangle of no area covers no sample: its normal is never read.
+    normals[i] = glm::length(n) > 0 ? glm::vec4(glm::normalize(n), 0) : glm::vec4(0, 1, 0, 0);
+  }
+  face_normals_ = Buffer(device, "face normals", normals.size() * sizeof(glm::vec4));
+  face_normals_.upload(std::span<const glm::vec4>(normals));
+}
+
+void SceneGpu::upload_textures(Device& device, const Scene& scene) {
+  constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  white_ = DeviceImage(device, "white", VK_FORMAT_R8G8B8A8_UNORM, 1, 1, usage);
+  const uint8_t white[] = {255, 255, 255, 255};
+  white_.upload(white, sizeof white);
+  for (const Texture& texture : scene.textures) {
+    if (texture.rgba.empty()) {  // read by no material
+      textures_.emplace_back();
+      continue;
+    }
+    const VkFormat format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+    textures_.emplace_back(device, texture.name, format, texture.width, texture.height, usage);
+    textures_.back().upload(texture.rgba.data(), texture.rgba.size());
+  }
+}
+
+void SceneGpu::make_draws(const Scene& scene) {
+  for (const Batch& batch : scene.batches) {
+    const Material& m = scene.materials[batch.material];
+    Draw draw;
+    draw.first_index = 3 * batch.first_triangle;
+    draw.index_count = 3 * batch.triangle_count;
+    draw.textures = {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture};
+    draw.push = {.base_color = m.base_color,
+                 .metallic = m.metallic,
+                 .roughness = m.roughness,
+                 .phong_exponent = m.phong_exponent,
+                 .specular = m.specular,
+                 .alpha_cutoff = m.alpha_cutoff,
+                 .normal_scale = m.normal_scale,
+                 .first_triangle = batch.first_triangle};
+    for (uint32_t slot = 0; slot < 3; ++slot) draw.push.textures |= draw.textures[slot] >= 0 ? 1u << slot : 0u;
+    draws_.push_back(draw);
+  }
+}
+
+void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
+                    const DeferredTargets& targets) const {
+  const auto pointers = targets.pointers();
+  const VkCommandBuffer commands = recorder.commands();
+  const glm::mat4 view_projection = view.view_projection();
+  pipeline_.render(commands, {pointers.begin(), pointers.end()}, targets.depth, [&] {
+    const VkBuffer vertices = vertices_.handle();
+    const VkDeviceSize zero = 0;
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
+    for (const Draw& draw : draws_) {
+      const auto texture = [&](int slot) -> const DeviceImage& {
+        return draw.textures[slot] < 0 ? white_ : textures_[draw.textures[slot]];
+      };
+      const Binding bindings[] = {texture(0), texture(1), texture(2), viewer, face_normals_};
+      pipeline_.layout().push(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bindings, "gbuffer.frag");
+      gpu::DrawPush push = draw.push;
+      push.view_projection = view_projection;
+      pipeline_.layout().push_constants(commands, &push, sizeof push);
+      vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, 0, 0);
+    }
+  });
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,55 @@
+// A scene in device memory, and the pass that draws it into deferred targets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu/raster.h"
+#include "gpu/recorder.h"
+#include "scene/scene.h"
+#include "scene/view.h"
+#include "shaders/types.h"
+
+namespace vsglbench {
+
+// The five RGBA32F targets of one half and their depth (shaders/field_maps.glsl).
+struct DeferredTargets {
+  DeferredTargets(Device& device, const std::string& name, uint32_t width, uint32_t height);
+  uint32_t width, height;
+  std::array<DeviceImage, 5> maps;
+  DeviceImage depth;
+  std::array<const DeviceImage*, 5> pointers() const;
+};
+
+// The parameters of a view as the shaders read them. `importance`: every texel emits 1/(width height)
+// instead of the light's flux.
+gpu::Emitter make_emitter(const View& view, uint32_t width, uint32_t height, const glm::vec3& power,
+                          bool importance);
+
+class SceneGpu {
+ public:
+  // Uploads geometry and textures; throws Error(case_failed) when they don't fit.
+  SceneGpu(Device& device, const Scene& scene);
+  // Draws everything as seen from `view` into `targets`. Inside a pass.
+  void draw(Recorder& recorder, const View& view, const Buffer& viewer, const DeferredTargets& targets) const;
+  uint64_t triangle_count() const { return triangles_; }
+
+ private:
+  struct Draw {
+    gpu::DrawPush push{};
+    uint32_t first_index = 0, index_count = 0;
+    std::array<int, 3> textures{-1, -1, -1};
+  };
+  void upload_geometry(Device& device, const Scene& scene);
+  void upload_textures(Device& device, const Scene& scene);
+  void make_draws(const Scene& scene);
+
+  Buffer vertices_, indices_, face_normals_;
+  std::vector<DeviceImage> textures_;
+  DeviceImage white_;
+  std::vector<Draw> draws_;
+  RasterPipeline pipeline_;
+  uint64_t triangles_ = 0;
+};
+
+}  // namespace vsglbench

@@ -1,0 +1,135 @@
+// What each physical device is and lacks: all missing features are listed at once.
+#include "gpu/device_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/check.h"
+
+namespace vsglbench {
+namespace {
+
+const char* type_name(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
+    default: return "other";
+  }
+}
+
+std::string version_text(uint32_t v) {
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(v), VK_API_VERSION_MINOR(v), VK_API_VERSION_PATCH(v));
+}
+
+}  // namespace
+
+const std::vector<const char*>& needed_extensions() {
+  static const std::vector<const char*> names = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  return names;
+}
+
+NeededFeatures::NeededFeatures() {
+  features.pNext = &vulkan11;
+  vulkan11.pNext = &vulkan12;
+  vulkan12.pNext = &vulkan13;
+}
+
+std::vector<NeededFeatures::Entry> NeededFeatures::entries() {
+  return {
+      {"geometryShader", &features.features.geometryShader},  // gl_PrimitiveID in fragment shaders
+      {"shaderInt64", &features.features.shaderInt64},
+      {"independentBlend", &features.features.independentBlend},
+      {"scalarBlockLayout", &vulkan12.scalarBlockLayout},
+      {"bufferDeviceAddress", &vulkan12.bufferDeviceAddress},
+      {"hostQueryReset", &vulkan12.hostQueryReset},
+      {"dynamicRendering", &vulkan13.dynamicRendering},
+      {"synchronization2", &vulkan13.synchronization2},
+      {"maintenance4", &vulkan13.maintenance4},
+  };
+}
+
+int find_queue_family(VkPhysicalDevice device, uint32_t* timestamp_bits) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  for (uint32_t i = 0; i < count; ++i) {
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    if ((families[i].queueFlags & wanted) == wanted) {
+      *timestamp_bits = families[i].timestampValidBits;
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+std::vector<std::string> missing_features(VkPhysicalDevice device) {
+  std::vector<std::string> missing;
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(device, &properties);
+  if (properties.apiVersion < VK_API_VERSION_1_3) {
+    return {fmt::format("Vulkan 1.3 (has {})", version_text(properties.apiVersion))};
+  }
+  NeededFeatures has;
+  vkGetPhysicalDeviceFeatures2(device, &has.features);
+  for (const auto& entry : has.entries()) {
+    if (!*entry.flag) missing.push_back(entry.name);
+  }
+  uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  for (const char* name : needed_extensions()) {
+    const bool found = std::any_of(extensions.begin(), extensions.end(),
+                                   [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+    if (!found) missing.push_back(name);
+  }
+  uint32_t bits = 0;
+  if (find_queue_family(device, &bits) < 0) missing.push_back("a queue with graphics and compute");
+  if (bits == 0) missing.push_back("timestamps on the graphics and compute queue");
+  if (properties.limits.maxPushConstantsSize < 128) missing.push_back("128 bytes of push constants");
+  return missing;
+}
+
+DeviceInfo describe_device(VkPhysicalDevice device, uint32_t index) {
+  VkPhysicalDeviceVulkan12Properties vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+  VkPhysicalDeviceVulkan11Properties vulkan11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &vulkan12};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &vulkan11};
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  const auto& p = properties.properties;
+  DeviceInfo info;
+  info.index = index;
+  info.name = p.deviceName;
+  info.type = type_name(p.deviceType);
+  info.driver = vulkan12.driverName;
+  info.driver_version = vulkan12.driverInfo;
+  info.api = version_text(p.apiVersion);
+  info.subgroup_size = vulkan11.subgroupSize;
+  info.timestamp_period_ns = p.limits.timestampPeriod;
+  info.max_storage_range = p.limits.maxStorageBufferRange;
+  info.max_image_dimension = p.limits.maxImageDimension2D;
+  VkPhysicalDeviceMemoryProperties memory;
+  vkGetPhysicalDeviceMemoryProperties(device, &memory);
+  for (uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+    if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+      info.memory_bytes = std::max<uint64_t>(info.memory_bytes, memory.memoryHeaps[i].size);
+    }
+  }
+  find_queue_family(device, &info.timestamp_valid_bits);
+  info.missing = missing_features(device);
+  return info;
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+  uint32_t count = 0;
+  VK_CHECK(vkEnumeratePhysicalDevices(instance, &count, nullptr));
+  std::vector<VkPhysicalDevice> devices(count);
+  VK_CHECK(vkEnumeratePhysicalDevices(instance, &count, devices.data()));
+  return devices;
+}
+
+}  // namespace vsglbench

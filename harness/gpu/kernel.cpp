@@ -1,0 +1,180 @@
+#include "gpu/kernel.h"
+
+#include <map>
+#include <utility>
+
+#include "base/error.h"
+#include "gpu/check.h"
+
+namespace vsglbench {
+namespace {
+
+// The few SPIR-V opcodes and enumerants that reflection needs (SPIR-V specification 1.6, section 3).
+enum Op : uint32_t { kTypeImage = 25, kTypeSampledImage = 27, kTypePointer = 32, kVariable = 59, kDecorate = 71 };
+enum Decoration : uint32_t { kBinding = 33, kDescriptorSet = 34 };
+enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
+
+struct Reflected {
+  std::map<uint32_t, uint32_t> binding, set;         // variable id → decoration
+  std::map<uint32_t, uint32_t> pointee, type_opcode;  // pointer type → type; type → opcode
+  std::map<uint32_t, std::pair<uint32_t, uint32_t>> variables;  // id → (pointer type, storage class)
+};
+
+Reflected scan(const std::vector<uint32_t>& spirv) {
+  Reflected r;
+  for (size_t i = 5; i < spirv.size();) {
+    const uint32_t opcode = spirv[i] & 0xffff, words = spirv[i] >> 16;
+    if (words == 0 || i + words > spirv.size()) break;
+    const uint32_t* w = &spirv[i];
+    if (opcode == kDecorate && words >= 4 && w[2] == kBinding) r.binding[w[1]] = w[3];
+    if (opcode == kDecorate && words >= 4 && w[2] == kDescriptorSet) r.set[w[1]] = w[3];
+    if (opcode == kTypePointer) r.pointee[w[1]] = w[3];
+    if (opcode == kTypeImage || opcode == kTypeSampledImage) r.type_opcode[w[1]] = opcode;
+    if (opcode == kVariable) r.variables[w[2]] = {w[1], w[3]};
+    i += words;
+  }
+  return r;
+}
+
+}  // namespace
+
+std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spirv, const std::string& name) {
+  const Reflected r = scan(spirv);
+  std::map<uint32_t, VkDescriptorType> found;
+  for (const auto& [id, binding] : r.binding) {
+    if (r.set.count(id) && r.set.at(id) != 0) {
+      throw fail(ErrorKind::plugin, "{}: binding {} is in set {}; use set 0", name, binding, r.set.at(id));
+    }
+    const auto [pointer, storage] = r.variables.at(id);
+    const uint32_t type = r.pointee.at(pointer);
+    const bool sampled = r.type_opcode.count(type) && r.type_opcode.at(type) == kTypeSampledImage;
+    if (storage == kStorageBuffer) {
+      found[binding] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    } else if (storage == kUniform) {
+      found[binding] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    } else if (storage == kUniformConstant && sampled) {
+      found[binding] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    } else {
+      throw fail(ErrorKind::plugin, "{}: binding {} is neither a buffer nor a sampler", name, binding);
+    }
+  }
+  std::vector<VkDescriptorType> types;
+  for (const auto& [binding, type] : found) {
+    if (binding != types.size()) throw fail(ErrorKind::plugin, "{}: binding {} is missing", name, types.size());
+    types.push_back(type);
+  }
+  return types;
+}
+
+BindingLayout::BindingLayout(Device& device, std::vector<VkDescriptorType> types, VkShaderStageFlags stages)
+    : device_(&device), types_(std::move(types)), stages_(stages) {
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (uint32_t i = 0; i < types_.size(); ++i) bindings.push_back({i, types_[i], 1, stages, nullptr});
+  const VkDescriptorSetLayoutCreateInfo set{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                            .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+                                            .bindingCount = static_cast<uint32_t>(bindings.size()),
+                                            .pBindings = bindings.data()};
+  VK_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_));
+  const VkPushConstantRange range{stages, 0, 128};
+  const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .setLayoutCount = 1,
+                                          .pSetLayouts = &set_,
+                                          .pushConstantRangeCount = 1,
+                                          .pPushConstantRanges = &range};
+  VK_CHECK(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &layout_));
+}
+
+BindingLayout::~BindingLayout() {
+  if (!device_) return;
+  vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
+  vkDestroyDescriptorSetLayout(device_->handle(), set_, nullptr);
+}
+
+void BindingLayout::swap(BindingLayout& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(types_, other.types_);
+  std::swap(stages_, other.stages_);
+  std::swap(set_, other.set_);
+  std::swap(layout_, other.layout_);
+}
+
+void BindingLayout::push(VkCommandBuffer commands, VkPipelineBindPoint point, std::span<const Binding> bindings,
+                         const std::string& name) const {
+  if (bindings.size() != types_.size()) {
+    throw std::logic_error(fmt::format("{} has {} bindings, {} given", name, types_.size(), bindings.size()));
+  }
+  std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
+  std::vector<VkDescriptorImageInfo> images(bindings.size());
+  std::vector<VkWriteDescriptorSet> writes;
+  for (uint32_t i = 0; i < bindings.size(); ++i) {
+    const bool is_image = types_[i] == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    if (is_image != (bindings[i].image != nullptr)) {
+      throw std::logic_error(fmt::format("{}: binding {} takes {}", name, i, is_image ? "an image" : "a buffer"));
+    }
+    if (is_image) {
+      images[i] = {device_->sampler(), bindings[i].image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    } else {
+      buffers[i] = {bindings[i].buffer->handle(), 0, VK_WHOLE_SIZE};
+    }
+    writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                      .dstBinding = i,
+                      .descriptorCount = 1,
+                      .descriptorType = types_[i],
+                      .pImageInfo = &images[i],
+                      .pBufferInfo = &buffers[i]});
+  }
+  device_->push_descriptor_set(commands, point, layout_, 0, static_cast<uint32_t>(writes.size()), writes.data());
+}
+
+void BindingLayout::push_constants(VkCommandBuffer commands, const void* data, size_t bytes) const {
+  if (bytes > 0) vkCmdPushConstants(commands, layout_, stages_, 0, static_cast<uint32_t>(bytes), data);
+}
+
+VkShaderModule make_shader_module(Device& device, const std::vector<uint32_t>& spirv) {
+  const VkShaderModuleCreateInfo create{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .codeSize = spirv.size() * 4,
+                                        .pCode = spirv.data()};
+  VkShaderModule module = VK_NULL_HANDLE;
+  VK_CHECK(vkCreateShaderModule(device.handle(), &create, nullptr, &module));
+  return module;
+}
+
+Kernel::Kernel(Device& device, const std::filesystem::path& path, const ShaderDefines& defines,
+               const std::vector<std::filesystem::path>& include_dirs)
+    : device_(&device), name_(path.filename().string()) {
+  const auto spirv = compile_shader(path, defines, include_dirs);
+  layout_ = BindingLayout(device, reflect_bindings(spirv, name_), VK_SHADER_STAGE_COMPUTE_BIT);
+  const VkShaderModule module = make_shader_module(device, spirv);
+  const VkComputePipelineCreateInfo create{
+      .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+      .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                .module = module,
+                .pName = "main"},
+      .layout = layout_.pipeline_layout()};
+  VK_CHECK(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline_));
+  vkDestroyShaderModule(device.handle(), module, nullptr);
+  device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline_), name_);
+}
+
+Kernel::~Kernel() {
+  if (pipeline_) vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
+}
+
+void Kernel::swap(Kernel& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(name_, other.name_);
+  std::swap(layout_, other.layout_);
+  std::swap(pipeline_, other.pipeline_);
+}
+
+void Kernel::dispatch(VkCommandBuffer commands, std::span<const Binding> bindings, const void* push,
+                      size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+  if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+  layout_.push(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);
+  layout_.push_constants(commands, push, push_bytes);
+  vkCmdDispatch(commands, groups_x, groups_y, groups_z);
+}
+
+}  // namespace vsglbench

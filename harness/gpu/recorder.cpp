@@ -1,0 +1,106 @@
+#include "gpu/recorder.h"
+
+#include "base/error.h"
+#include "gpu/check.h"
+
+namespace vsglbench {
+
+Recorder::Recorder(Device& device) : device_(device) {
+  const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                             .commandPool = device.command_pool(),
+                                             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                             .commandBufferCount = 1};
+  VK_CHECK(vkAllocateCommandBuffers(device.handle(), &allocate, &commands_));
+  const VkQueryPoolCreateInfo queries{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                      .queryCount = 2 * kMaxPasses};
+  VK_CHECK(vkCreateQueryPool(device.handle(), &queries, nullptr, &queries_));
+  const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  VK_CHECK(vkCreateFence(device.handle(), &fence, nullptr, &fence_));
+}
+
+Recorder::~Recorder() {
+  vkDestroyFence(device_.handle(), fence_, nullptr);
+  vkDestroyQueryPool(device_.handle(), queries_, nullptr);
+  vkFreeCommandBuffers(device_.handle(), device_.command_pool(), 1, &commands_);
+}
+
+void Recorder::begin() {
+  names_.clear();
+  dispatches_ = 0;
+  vkResetQueryPool(device_.handle(), queries_, 0, 2 * kMaxPasses);
+  const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+  VK_CHECK(vkBeginCommandBuffer(commands_, &begin));
+  barrier();
+}
+
+void Recorder::pass(const std::string& name, const std::function<void()>& record) {
+  if (names_.size() == kMaxPasses) throw std::logic_error("too many passes in one submission");
+  const auto index = static_cast<uint32_t>(names_.size());
+  names_.push_back(name);
+  if (device_.begin_label) {
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};
+    device_.begin_label(commands_, &label);
+  }
+  // lavapipe takes a timestamp when the next barrier flushes it, so each needs a barrier of its own: without
+  // one a compute pass would start its clock after the work.
+  vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * index);
+  barrier();
+  record();
+  barrier();
+  vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * index + 1);
+  barrier();
+  if (device_.end_label) device_.end_label(commands_);
+}
+
+void Recorder::dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const void* push,
+                        size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
+  kernel.dispatch(commands_, {bindings.begin(), bindings.size()}, push, push_bytes, groups_x, groups_y, groups_z);
+  if (groups_x && groups_y && groups_z) ++dispatches_;
+}
+
+void Recorder::barrier() {
+  const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                 .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 .srcAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                 .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  const VkDependencyInfo dependency{
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+  vkCmdPipelineBarrier2(commands_, &dependency);
+}
+
+void Recorder::fill(const Buffer& buffer, uint32_t word) {
+  vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
+}
+
+SubmissionTimes Recorder::submit_and_wait() {
+  VK_CHECK(vkEndCommandBuffer(commands_));
+  const VkSubmitInfo submit{
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands_};
+  VK_CHECK(vkQueueSubmit(device_.queue(), 1, &submit, fence_));
+  VK_CHECK(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX));
+  VK_CHECK(vkResetFences(device_.handle(), 1, &fence_));
+
+  SubmissionTimes times;
+  times.dispatches = dispatches_;
+  if (names_.empty()) return times;
+  std::vector<uint64_t> stamps(2 * names_.size());
+  VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(stamps.size()),
+                                 stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
+                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const uint32_t bits = device_.info().timestamp_valid_bits;
+  const uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
+  const double ms_per_tick = static_cast<double>(device_.info().timestamp_period_ns) * 1e-6;
+  const auto milliseconds = [&](uint64_t from, uint64_t to) {
+    return static_cast<double>((to - from) & mask) * ms_per_tick;
+  };
+  for (size_t i = 0; i < names_.size(); ++i) {
+    times.passes.push_back({names_[i], milliseconds(stamps[2 * i], stamps[2 * i + 1])});
+  }
+  times.span_ms = milliseconds(stamps.front(), stamps.back());
+  return times;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,68 @@
+// Named, labelled, timestamped passes with a full barrier between any two.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/kernel.h"
+
+namespace vsglbench {
+
+struct PassTime {
+  std::string name;  // dotted, <stage>.<half>.<step>
+  double ms = 0;
+};
+
+struct SubmissionTimes {
+  std::vector<PassTime> passes;  // in order; a name may come more than once
+  double span_ms = 0;            // from the first timestamp to the last
+  unsigned dispatches = 0;
+};
+
+// Records one command buffer at a time: begin, passes, submit_and_wait.
+class Recorder {
+ public:
+  explicit Recorder(Device& device);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  Device& device() { return device_; }
+  VkCommandBuffer commands() const { return commands_; }
+
+  void begin();
+  // Everything `record` records belongs to pass `name`. Passes don't nest.
+  void pass(const std::string& name, const std::function<void()>& record);
+  // Inside a pass. Later dispatches see what earlier ones wrote only after barrier().
+  void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const void* push, size_t push_bytes,
+                uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
+  template <class Push>
+  void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const Push& push, uint32_t groups_x,
+                uint32_t groups_y = 1, uint32_t groups_z = 1) {
+    static_assert(sizeof(Push) <= 128 && std::is_trivially_copyable_v<Push>);
+    dispatch(kernel, bindings, &push, sizeof push, groups_x, groups_y, groups_z);
+  }
+  void barrier();
+  void fill(const Buffer& buffer, uint32_t word);  // every 32-bit word
+  // Submits, waits, and reads the timestamps.
+  SubmissionTimes submit_and_wait();
+  unsigned dispatches() const { return dispatches_; }  // since begin()
+
+ private:
+  static constexpr uint32_t kMaxPasses = 512;
+  Device& device_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkQueryPool queries_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  std::vector<std::string> names_;
+  unsigned dispatches_ = 0;
+};
+
+// Groups of `size` that cover `count` items.
+inline uint32_t groups_for(uint64_t count, uint32_t size) { return static_cast<uint32_t>((count + size - 1) / size); }
+
+}  // namespace vsglbench

@@ -1,0 +1,192 @@
+#include "gpu/shader_compiler.h"
+
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/build_info.h>
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <regex>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/log.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+ShaderStatistics statistics;
+
+// Everything one glslang shader needs beyond its text; the limits of a Vulkan 1.3 device are not restated
+// here: the driver checks its own.
+TBuiltInResource resource_limits() {
+  TBuiltInResource limits{};
+  int* first = &limits.maxLights;
+  int* last = &limits.maxSamples;
+  for (int* p = first; p <= last; ++p) *p = 65536;
+  limits.minProgramTexelOffset = -8;
+  limits.maxProgramTexelOffset = 7;
+  limits.limits.nonInductiveForLoops = true;
+  limits.limits.whileLoops = true;
+  limits.limits.doWhileLoops = true;
+  limits.limits.generalUniformIndexing = true;
+  limits.limits.generalAttributeMatrixVectorIndexing = true;
+  limits.limits.generalVaryingIndexing = true;
+  limits.limits.generalSamplerIndexing = true;
+  limits.limits.generalVariableIndexing = true;
+  limits.limits.generalConstantMatrixVectorIndexing = true;
+  return limits;
+}
+
+class FileIncluder : public glslang::TShader::Includer {
+ public:
+  explicit FileIncluder(const std::vector<fs::path>& dirs) : dirs_(dirs) {}
+  IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
+    if (depth > 32) return nullptr;
+    std::vector<fs::path> candidates = {fs::path(includer).parent_path() / header};
+    for (const auto& dir : dirs_) candidates.push_back(dir / header);
+    for (const auto& candidate : candidates) {
+      std::error_code ec;
+      if (!fs::is_regular_file(candidate, ec)) continue;
+      auto* text = new std::string(read_text(candidate));
+      return new IncludeResult(candidate.string(), text->data(), text->size(), text);
+    }
+    return nullptr;
+  }
+  IncludeResult* includeSystem(const char* h, const char* i, size_t d) override { return includeLocal(h, i, d); }
+  void releaseInclude(IncludeResult* result) override {
+    if (!result) return;
+    delete static_cast<std::string*>(result->userData);
+    delete result;
+  }
+
+ private:
+  const std::vector<fs::path>& dirs_;
+};
+
+EShLanguage stage_of(const fs::path& path) {
+  const std::string suffix = path.extension().string();
+  if (suffix == ".comp") return EShLangCompute;
+  if (suffix == ".vert") return EShLangVertex;
+  if (suffix == ".frag") return EShLangFragment;
+  throw fail(ErrorKind::plugin, "{}: a kernel's name ends in .comp, .vert or .frag", path.string());
+}
+
+// glslang's log starts "ERROR: FILE:LINE: what"; only the first error is news.
+[[noreturn]] void report(const fs::path& path, const std::string& log) {
+  std::smatch match;
+  static const std::regex error("ERROR: ([^\n]*)");
+  const std::string first = std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
+  throw fail(ErrorKind::plugin, "{}: {}", path.string(), first);
+}
+
+// Compiler errors carry the file's name because the shader was given it.
+struct Source {
+  fs::path path;
+  EShLanguage stage;
+  std::string text, preamble, name;
+  const char* text_pointer;
+  const char* name_pointer;
+  int length;
+
+  Source(const fs::path& p, const ShaderDefines& defines) : path(p), stage(stage_of(p)), name(p.string()) {
+    try {
+      text = read_text(p);
+    } catch (const Error& e) {
+      throw Error(ErrorKind::plugin, e.what());
+    }
+    preamble = "#extension GL_GOOGLE_include_directive : require\n";
+    for (const auto& [key, value] : defines) preamble += fmt::format("#define {} {}\n", key, value);
+    text_pointer = text.c_str();
+    name_pointer = name.c_str();
+    length = static_cast<int>(text.size());
+  }
+  void set_up(glslang::TShader& shader) const {
+    shader.setStringsWithLengthsAndNames(&text_pointer, &length, &name_pointer, 1);
+    shader.setPreamble(preamble.c_str());
+    shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+  }
+};
+
+constexpr auto kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+
+std::string preprocess(const Source& source, const TBuiltInResource& limits, FileIncluder& includer) {
+  glslang::TShader shader(source.stage);
+  source.set_up(shader);
+  std::string out;
+  if (!shader.preprocess(&limits, 460, ENoProfile, false, false, kMessages, &out, includer)) {
+    report(source.path, shader.getInfoLog());
+  }
+  return out;
+}
+
+std::vector<uint32_t> compile(const Source& source, const TBuiltInResource& limits, FileIncluder& includer) {
+  glslang::TShader shader(source.stage);
+  source.set_up(shader);
+  if (!shader.parse(&limits, 460, false, kMessages, includer)) report(source.path, shader.getInfoLog());
+  glslang::TProgram program;
+  program.addShader(&shader);
+  if (!program.link(kMessages)) report(source.path, program.getInfoLog());
+  std::vector<uint32_t> spirv;
+  glslang::SpvOptions options;
+  options.disableOptimizer = true;
+  glslang::GlslangToSpv(*program.getIntermediate(source.stage), spirv, &options);
+  return spirv;
+}
+
+bool read_cached(const fs::path& path, std::vector<uint32_t>* spirv) {
+  std::error_code ec;
+  if (!fs::is_regular_file(path, ec)) return false;
+  const auto bytes = read_bytes(path);
+  constexpr uint32_t magic = 0x07230203;
+  spirv->resize(bytes.size() / 4);
+  if (bytes.size() < 20 || bytes.size() % 4 != 0) return false;
+  std::memcpy(spirv->data(), bytes.data(), bytes.size());
+  return spirv->front() == magic;
+}
+
+void write_cached(const fs::path& path, const std::vector<uint32_t>& spirv) {
+  try {
+    write_text(path, {reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4});
+  } catch (const Error& e) {
+    log_warning("shader cache: {}", e.what());  // a cache that can't be written costs time, not the run
+  }
+}
+
+}  // namespace
+
+std::vector<uint32_t> compile_shader(const fs::path& path, const ShaderDefines& defines,
+                                     const std::vector<fs::path>& include_dirs) {
+  static const bool initialised = glslang::InitializeProcess();
+  if (!initialised) throw fail(ErrorKind::plugin, "glslang cannot be initialised");
+  const auto start = std::chrono::steady_clock::now();
+  const TBuiltInResource limits = resource_limits();
+  FileIncluder includer(include_dirs);
+  const Source source(path, defines);
+  // The key: what the preprocessor makes of source, includes and defines.
+  Hasher hasher;
+  hasher.text(preprocess(source, limits, includer)).value(source.stage);
+  for (const int v : {GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH}) hasher.value(v);
+  const fs::path cached = cache_directory() / "spirv" / (hasher.hex() + ".spv");
+
+  std::vector<uint32_t> spirv;
+  if (read_cached(cached, &spirv)) {
+    ++statistics.from_cache;
+  } else {
+    spirv = compile(source, limits, includer);
+    write_cached(cached, spirv);
+    ++statistics.compiled;
+  }
+  statistics.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return spirv;
+}
+
+const ShaderStatistics& shader_statistics() { return statistics; }
+
+}  // namespace vsglbench

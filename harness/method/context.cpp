@@ -1,0 +1,37 @@
+#include "method/context.h"
+
+#include "base/file.h"
+
+namespace vsglbench {
+
+std::vector<std::filesystem::path> KernelLibrary::include_dirs() {
+  const auto harness = data_root() / "harness";
+  return {harness / "shaders", harness / "method" / "shaders", harness / "frame"};
+}
+
+const Kernel& KernelLibrary::get(const std::filesystem::path& path, const ShaderDefines& defines) {
+  auto& slot = kernels_[{path.string(), defines}];
+  if (!slot) slot = std::make_unique<Kernel>(device_, path, defines, include_dirs());
+  return *slot;
+}
+
+Buffer& ScratchPool::get(const std::string& name, size_t bytes) {
+  Buffer& buffer = buffers_[name];
+  if (!buffer || buffer.size() < bytes) {
+    buffer = Buffer();  // give the old one back first: both may not fit
+    buffer = Buffer(device_, name, bytes);
+  }
+  return buffer;
+}
+
+size_t ScratchPool::bytes() const {
+  size_t total = 0;
+  for (const auto& [name, buffer] : buffers_) total += buffer.size();
+  return total;
+}
+
+const Kernel& MethodContext::shared_kernel(const std::string& file, const ShaderDefines& defines) {
+  return kernels_.get(data_root() / "harness" / "method" / "shaders" / file, defines);
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,61 @@
+// What a method is given to work with: its kernels and scratch memory.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "gpu/kernel.h"
+
+namespace vsglbench {
+
+// Compiles each (file, defines) once; cases share it.
+class KernelLibrary {
+ public:
+  explicit KernelLibrary(Device& device) : device_(device) {}
+  // Includes are found beside the file, in harness/shaders and in harness/method/shaders.
+  const Kernel& get(const std::filesystem::path& path, const ShaderDefines& defines = {});
+  Device& device() { return device_; }
+  static std::vector<std::filesystem::path> include_dirs();
+
+ private:
+  Device& device_;
+  std::map<std::pair<std::string, ShaderDefines>, std::unique_ptr<Kernel>> kernels_;
+};
+
+// Device buffers by name, shared by all cases of a run: what they hold lasts for one frame only. A buffer
+// grows when a larger one is asked for; ask again in every frame instead of keeping the reference.
+class ScratchPool {
+ public:
+  explicit ScratchPool(Device& device) : device_(device) {}
+  Buffer& get(const std::string& name, size_t bytes);
+  size_t bytes() const;
+  void clear() { buffers_.clear(); }
+
+ private:
+  Device& device_;
+  std::map<std::string, Buffer> buffers_;
+};
+
+class MethodContext {
+ public:
+  MethodContext(KernelLibrary& kernels, ScratchPool& scratch, std::filesystem::path folder)
+      : kernels_(kernels), scratch_(scratch), folder_(std::move(folder)) {}
+  Device& device() { return kernels_.device(); }
+  // A kernel from the method's own folder.
+  const Kernel& kernel(const std::string& file, const ShaderDefines& defines = {}) {
+    return kernels_.get(folder_ / file, defines);
+  }
+  // A kernel that several methods share, from harness/method/shaders.
+  const Kernel& shared_kernel(const std::string& file, const ShaderDefines& defines = {});
+  Buffer& scratch(const std::string& name, size_t bytes) { return scratch_.get(name, bytes); }
+
+ private:
+  KernelLibrary& kernels_;
+  ScratchPool& scratch_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace vsglbench

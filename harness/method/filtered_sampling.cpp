@@ -1,0 +1,90 @@
+#include "method/filtered_sampling.h"
+
+#include <algorithm>
+
+namespace vsglbench {
+
+uint32_t pyramid_top(uint32_t width, uint32_t height) {
+  uint32_t level = 0;
+  while ((uint64_t{1} << level) < std::max(width, height)) ++level;
+  return level;
+}
+
+uint64_t pyramid_texels(uint32_t width, uint32_t height) {
+  uint64_t total = 0;
+  for (uint32_t level = 0; level <= pyramid_top(width, height); ++level) {
+    const uint64_t round = (uint64_t{1} << level) - 1;
+    total += ((width + round) >> level) * ((height + round) >> level);
+  }
+  return total;
+}
+
+uint32_t lattice_step(uint32_t count) { return static_cast<uint32_t>((uint64_t{1} << 32) / count); }
+
+MomentPyramid::MomentPyramid(MethodContext& context)
+    : context_(context),
+      resolve_(context.shared_kernel("resolve.comp")),
+      mip_(context.shared_kernel("moments_mip.comp")) {}
+
+std::array<const Buffer*, 5> MomentPyramid::build(Steps& steps, const Field& field) {
+  const uint32_t w = field.emitter.width, h = field.emitter.height;
+  std::array<const Buffer*, 5> m{};
+  for (size_t k = 0; k < m.size(); ++k) {
+    m[k] = &context_.scratch(fmt::format("moments{}.{}", k, half_name(field.half)), pyramid_texels(w, h) * 16);
+  }
+  Recorder& r = steps.recorder();
+  steps.pass("resolve", [&] {
+    const auto& maps = field.maps;
+    r.dispatch(resolve_, {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *m[0], *m[1], *m[2], *m[3], *m[4]},
+               field.emitter, groups_for(w, 8), groups_for(h, 8));
+  });
+  steps.pass("mipmap", [&] {
+    for (uint32_t level = 1; level <= pyramid_top(w, h); ++level) {
+      const struct {
+        uint32_t width, height, level;
+      } push{w, h, level};
+      r.dispatch(mip_, {*m[0], *m[1], *m[2], *m[3], *m[4]}, push, groups_for(groups_for(w, 1u << level), 8),
+                 groups_for(groups_for(h, 1u << level), 8));
+      r.barrier();
+    }
+  });
+  return m;
+}
+
+namespace {
+
+class FilteredSampling : public Method {
+ public:
+  FilteredSampling(MethodContext& context, const std::string& file, float kernel_size)
+      : pyramid_(context), sample_(context.kernel(file)), kernel_size_(kernel_size) {}
+
+  LightKind kind() const override { return LightKind::vsgl; }
+
+  void generate(Steps& steps, const Field& field, const LightTarget& target) override {
+    const auto m = pyramid_.build(steps, field);
+    steps.pass("sample", [&] {
+      const struct {
+        uint32_t width, height, count, step;
+        glm::uvec2 shift;
+        float kernel_size;
+      } push{field.emitter.width,        field.emitter.height, target.count,
+             lattice_step(target.count), target.shift,         kernel_size_};
+      steps.recorder().dispatch(sample_, {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer}, push,
+                                groups_for(target.count, 64));
+    });
+  }
+
+ private:
+  MomentPyramid pyramid_;
+  const Kernel& sample_;
+  float kernel_size_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
+                                               float kernel_size) {
+  return std::make_unique<FilteredSampling>(context, kernel_file, kernel_size);
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,34 @@
+// What `fis` and `mfis` share: the moment pyramid and the dispatch of the sampling kernel [MFIS16 §4, App. D].
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "method/method.h"
+
+namespace vsglbench {
+
+// The pyramid of leaf moments of one half: steps `resolve` and `mipmap`. Five vec4 buffers, bound in order by
+// shaders/moments_buffers.glsl.
+class MomentPyramid {
+ public:
+  explicit MomentPyramid(MethodContext& context);
+  std::array<const Buffer*, 5> build(Steps& steps, const Field& field);
+
+ private:
+  MethodContext& context_;
+  const Kernel &resolve_, &mip_;
+};
+
+// A method whose kernel file includes filtered_sampling.glsl; `kernel_size` is K.
+std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
+                                               float kernel_size);
+
+// Texels of a whole pyramid over width × height (shaders/pyramid.glsl).
+uint64_t pyramid_texels(uint32_t width, uint32_t height);
+// Index of its last level, which has one texel.
+uint32_t pyramid_top(uint32_t width, uint32_t height);
+// floor(2^32/N), the lattice's step in 32-bit fixed point (shaders/warp.glsl); 0 for N = 1.
+uint32_t lattice_step(uint32_t count);
+
+}  // namespace vsglbench

@@ -1,0 +1,97 @@
+// The contract between the harness and a method: turn one half (RSM or G-buffer) and its PDF into lights.
+//
+// A method sees method/, gpu/, shaders/ and nothing else. It does not time itself: every step it records
+// through `Steps` is named, labelled, timestamped and followed by a full barrier.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "gpu/recorder.h"
+#include "method/context.h"
+#include "shaders/types.h"
+
+namespace vsglbench {
+
+enum class Half { gbuffer, rsm };
+enum class LightKind { vsgl, vpl };
+
+inline const char* half_name(Half half) { return half == Half::gbuffer ? "gbuffer" : "rsm"; }
+inline size_t light_stride(LightKind kind) { return kind == LightKind::vsgl ? sizeof(gpu::Vsgl) : sizeof(gpu::Vpl); }
+
+// What a method reads: the deferred targets of one half, who emits into it, and the PDF.
+struct Field {
+  Half half = Half::rsm;
+  gpu::Emitter emitter{};  // width and height are the half's, in texels
+  // RGBA32F: position + coverage, shading normal + ndf, geometric normal, Rd, F0 (shaders/field_maps.glsl).
+  std::array<const DeviceImage*, 5> maps{};
+  // Pyramid of float means (shaders/pyramid.glsl) of any positive multiple of the PDF; level 0 first. Null
+  // where the method said that it uses none.
+  const Buffer* pdf = nullptr;
+  uint64_t texels() const { return uint64_t(emitter.width) * emitter.height; }
+};
+
+// Where the lights go: `count` records of Vsgl or Vpl. A light of no power has power = 0.
+struct LightTarget {
+  const Buffer* buffer = nullptr;
+  uint32_t count = 0;
+  glm::uvec2 shift{0};  // Cranley-Patterson shift of this seed, 32-bit fixed point
+};
+
+// Names the passes of one half `generate.<half>.<step>`.
+class Steps {
+ public:
+  Steps(Recorder& recorder, Half half) : recorder_(recorder), prefix_(std::string("generate.") + half_name(half)) {}
+  template <class Record>
+  void pass(const std::string& step, const Record& record) {
+    recorder_.pass(prefix_ + "." + step, record);
+  }
+  Recorder& recorder() { return recorder_; }
+
+ private:
+  Recorder& recorder_;
+  std::string prefix_;
+};
+
+// One method with fixed parameters. Made once a case, used for every frame of it.
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual LightKind kind() const = 0;
+  virtual bool uses_importance() const { return true; }
+  // How many lights it makes from a half of `texels` texels when asked for `wanted`.
+  virtual uint32_t light_count(uint32_t wanted, uint64_t /*texels*/) const { return wanted; }
+  virtual void generate(Steps& steps, const Field& field, const LightTarget& target) = 0;
+};
+
+// A parameter of one method, beyond those every case has.
+struct ParameterInfo {
+  std::string name;
+  Json default_value;  // number or string; its type is the parameter's type
+  std::string description;
+  double minimum = 0, maximum = 0;   // inclusive; for numbers
+  std::vector<std::string> choices;  // for strings
+};
+
+struct MethodInfo {
+  std::string name;     // as a config writes it
+  std::string summary;  // one line
+  std::string source;   // paper, section
+  bool takes_light_count = true;  // false: the number of lights follows from the RSM
+  std::vector<ParameterInfo> parameters;
+  std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters);
+};
+
+// Fills defaults in and checks: an unknown parameter, a wrong type or a value out of range throws
+// Error(config), naming the nearest known one.
+Json resolve_parameters(const MethodInfo& method, const Json& given);
+
+// Every method, in the order of methods/CMakeLists.txt.
+const std::vector<const MethodInfo*>& all_methods();
+// Throws Error(config) naming the nearest method.
+const MethodInfo& find_method(const std::string& name);
+
+}  // namespace vsglbench

@@ -1,0 +1,100 @@
+// The moments of a set of VPLs that a VSGL is made from [MFIS16 App. B], and how two sets merge.
+//
+// Unlike the paper, which filters E[y], E[|y|²] and E[r ξ] and subtracts, every moment is kept central:
+// variance about the own mean, and q = 1-|mean direction|. Merging uses the parallel-axis identities, which
+// equal the paper's sums in exact arithmetic and cancel nothing in single precision.
+#ifndef VSGLBENCH_MOMENTS_GLSL
+#define VSGLBENCH_MOMENTS_GLSL
+
+#include "math.glsl"
+#include "sg.glsl"
+#include "types.h"
+
+struct Lobe {
+  vec3 power;      // ΣΦR, W
+  vec3 direction;  // Σw r ξ / Σw with w = luminance(ΦR), r = λ/(λ+1)
+  float q;         // 1-|direction|
+};
+
+struct Moments {
+  Lobe diffuse, specular;
+  vec3 mean;       // μ, weighted with luminance(Φ(Rd+Rs))
+  float variance;  // E|y-μ|²
+};
+
+Lobe empty_lobe() { return Lobe(vec3(0.0), vec3(0.0), 1.0); }
+Moments empty_moments() { return Moments(empty_lobe(), empty_lobe(), vec3(0.0), 0.0); }
+
+float lobe_weight(Lobe l) { return luminance(l.power); }
+float moments_weight(Moments m) { return lobe_weight(m.diffuse) + lobe_weight(m.specular); }
+
+// Four sets as one: the k-th counts `factor[k]` times.
+//  direction = Σ w v / Σw;  1-|direction| = Σ w (q + |v| ½|ξ-ξ̄|²) / Σw with ξ, ξ̄ the unit directions.
+Lobe merge_lobes(Lobe a[4], vec4 factor) {
+  Lobe m = Lobe(vec3(0.0), vec3(0.0), 0.0);
+  vec4 w;
+  float total = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    m.power += factor[k] * a[k].power;
+    w[k] = factor[k] * lobe_weight(a[k]);
+    total += w[k];
+    m.direction += w[k] * a[k].direction;
+  }
+  if (!(total > 0.0)) return empty_lobe();
+  m.direction /= total;
+  vec3 axis = safe_normalize(m.direction, vec3(0.0));
+  for (int k = 0; k < 4; ++k) {
+    vec3 d = safe_normalize(a[k].direction, axis) - axis;
+    m.q += w[k] / total * (a[k].q + (1.0 - a[k].q) * 0.5 * dot(d, d));
+  }
+  m.q = min(m.q, 1.0);
+  return m;
+}
+
+Moments merge(Moments a[4], vec4 factor) {
+  Moments m;
+  m.diffuse = merge_lobes(Lobe[4](a[0].diffuse, a[1].diffuse, a[2].diffuse, a[3].diffuse), factor);
+  m.specular = merge_lobes(Lobe[4](a[0].specular, a[1].specular, a[2].specular, a[3].specular), factor);
+  m.mean = vec3(0.0);
+  m.variance = 0.0;
+  vec4 w;
+  float total = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    w[k] = factor[k] * moments_weight(a[k]);
+    total += w[k];
+  }
+  if (!(total > 0.0)) return empty_moments();
+  w /= total;
+  // The mean as offsets from the heaviest set, so that far from the origin nothing rounds away.
+  int heaviest = 0;
+  for (int k = 1; k < 4; ++k) heaviest = w[k] > w[heaviest] ? k : heaviest;
+  vec3 base = a[heaviest].mean;
+  vec3 offset = vec3(0.0);
+  for (int k = 0; k < 4; ++k) offset += w[k] > 0.0 ? w[k] * (a[k].mean - base) : vec3(0.0);
+  m.mean = base + offset;
+  for (int k = 0; k < 4; ++k) {
+    vec3 d = (a[k].mean - base) - offset;
+    m.variance += w[k] > 0.0 ? w[k] * (a[k].variance + dot(d, d)) : 0.0;
+  }
+  return m;
+}
+
+// The light whose VPLs have these moments, all powers multiplied by `factor`.
+Vsgl make_vsgl(Moments m, float factor, float level) {
+  Vsgl v;
+  v.mean = m.mean;
+  v.variance = max(m.variance, 1e-20);
+  v.diffuse_sharpness = toksvig_sharpness(m.diffuse.q);
+  v.specular_sharpness = toksvig_sharpness(m.specular.q);
+  v.specular_axis = safe_normalize(m.specular.direction, vec3(0.0, 1.0, 0.0));
+  v.diffuse_axis = safe_normalize(m.diffuse.direction, v.specular_axis);
+  v.diffuse = factor * m.diffuse.power / sg_integral(v.diffuse_sharpness);
+  v.specular = factor * m.specular.power / sg_integral(v.specular_sharpness);
+  v.level = level;
+  v.power = factor * moments_weight(m);
+  return v;
+}
+
+Vsgl no_light() { return make_vsgl(empty_moments(), 0.0, -1.0); }
+
+#endif

@@ -1,0 +1,90 @@
+// Structs that C++ and GLSL both include: one definition, scalar layout (no hidden padding).
+#ifndef VSGLBENCH_TYPES_H
+#define VSGLBENCH_TYPES_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace vsglbench::gpu {
+using glm::mat4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = uint32_t;
+#else
+#extension GL_EXT_scalar_block_layout : require
+#endif
+
+// A virtual spherical Gaussian light [MFIS16 App. B]: both lobes share mean and variance.
+struct Vsgl {
+  vec3 mean;              // μ_v, metres
+  float variance;         // σ_v², metres², 3-D: E|y-μ|²
+  vec3 diffuse;           // c_v of the diffuse lobe, W/sr
+  float diffuse_sharpness;
+  vec3 diffuse_axis;      // unit; the power-weighted mean normal
+  float level;            // mip level of the kernel, for pictures and statistics; -1 where there is none
+  vec3 specular;          // c_v of the specular lobe, W/sr
+  float specular_sharpness;
+  vec3 specular_axis;     // unit
+  float power;            // luminance of the reflected power of both lobes, W; 0 = no light
+};
+
+// A virtual point light with its exact BRDF [VSGL14 Eq. 1].
+struct Vpl {
+  vec3 position;
+  float ndf;              // > 0: GGX alpha; < 0: minus the Phong exponent
+  vec3 normal;            // shading normal, unit
+  float power;            // luminance of the incident flux, W; 0 = no light
+  vec3 geometric_normal;  // unit, towards the primary light's side
+  float unused0;
+  vec3 incident;          // unit, from the surface towards the primary light
+  float unused1;
+  vec3 flux;              // incident flux that this light stands for, W
+  float unused2;
+  vec3 diffuse;           // Rd
+  float unused3;
+  vec3 f0;                // F0
+  float unused4;
+};
+
+// What emits into a half: the primary light (RSM), or the eye (G-buffer; importance 1/pixels each).
+struct Emitter {
+  vec3 position;
+  uint perspective;   // 0: orthographic along `forward`
+  vec3 forward;
+  uint width;         // texels
+  vec3 right;
+  uint height;
+  vec3 up;
+  float footprint_cosine;  // footprints are measured at no more grazing an angle than this cosine
+  vec2 extent;        // tangents of the half angles, or half sizes in metres
+  vec3 power;         // W/sr (perspective) or W/m² (orthographic); unused where importance = 1
+  uint importance;    // 1: every texel emits 1/(width height)
+};
+
+// One draw of the rasteriser.
+struct DrawPush {
+  mat4 view_projection;
+  vec4 base_color;
+  float metallic;
+  float roughness;
+  float phong_exponent;
+  float specular;
+  float alpha_cutoff;
+  float normal_scale;
+  uint textures;      // bit 0 base colour, bit 1 metallic-roughness, bit 2 normal
+  uint first_triangle;  // of this draw, for the face normals
+};
+
+#ifdef __cplusplus
+struct Vertex {
+  vec3 position;
+  vec3 normal;
+  vec4 tangent;
+  vec2 uv;
+};
+static_assert(sizeof(Vsgl) == 80 && sizeof(Vpl) == 112 && sizeof(Emitter) == 88 && sizeof(DrawPush) == 112);
+static_assert(sizeof(Vertex) == 48);
+}  // namespace vsglbench::gpu
+#endif
+#endif

@@ -1,0 +1,25 @@
+// Every texel a light: the answer without clustering. EXACT 1: VPLs with exact BRDFs; 0: each texel's SG lobes.
+#version 460
+#include "types.h"
+layout(local_size_x = 64) in;
+#include "field_maps.glsl"
+#include "field.glsl"
+#include "vpl_light.glsl"
+#if EXACT
+layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vpl lights[]; };
+#else
+layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vsgl lights[]; };
+#endif
+layout(push_constant, scalar) uniform Push { Emitter emitter; };
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= emitter.width * emitter.height) return;
+  Texel t;
+  bool surface = load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t);
+#if EXACT
+  lights[i] = make_vpl(t, surface ? 1.0 : 0.0);
+#else
+  lights[i] = surface ? make_vsgl(leaf_moments(t), 1.0, 0.0) : no_light();
+#endif
+}

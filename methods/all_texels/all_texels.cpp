@@ -1,0 +1,44 @@
+// Every RSM texel a light: the clustering-free answer, with exact BRDFs or with SG lobes.
+#include "method/method.h"
+
+namespace vsglbench {
+namespace {
+
+class AllTexels : public Method {
+ public:
+  AllTexels(MethodContext& context, bool exact)
+      : exact_(exact), convert_(context.kernel("all_texels.comp", {{"EXACT", exact ? "1" : "0"}})) {}
+  LightKind kind() const override { return exact_ ? LightKind::vpl : LightKind::vsgl; }
+  bool uses_importance() const override { return false; }
+  uint32_t light_count(uint32_t, uint64_t texels) const override { return static_cast<uint32_t>(texels); }
+
+  void generate(Steps& steps, const Field& field, const LightTarget& target) override {
+    steps.pass("convert", [&] {
+      const auto& maps = field.maps;
+      steps.recorder().dispatch(convert_, {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *target.buffer},
+                                field.emitter, groups_for(target.count, 64));
+    });
+  }
+
+ private:
+  bool exact_;
+  const Kernel& convert_;
+};
+
+}  // namespace
+
+const MethodInfo& method_all_texels() {
+  static const MethodInfo info{
+      .name = "all-texels",
+      .summary = "every RSM texel a light: the answer without clustering",
+      .source = "-",
+      .takes_light_count = false,
+      .parameters = {{"shading", "exact", "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]", 0, 0,
+                      {"exact", "vsgl16"}}},
+      .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
+        return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");
+      }};
+  return info;
+}
+
+}  // namespace vsglbench
