@@ -1,6 +1,7 @@
 #include "frame/frame.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -283,6 +284,27 @@ std::vector<gpu::Vpl> Frame::vpls() const {
 std::vector<float> Frame::importance() const {
   if (!method_->uses_importance()) return {};
   return const_cast<Frame*>(this)->pdf_buffer(Half::rsm).download<float>(size_t(light_.width) * light_.height);
+}
+
+std::string Frame::first_bad_pass() const {
+  const auto bad_floats = [](const float* begin, size_t count) {
+    return std::any_of(begin, begin + count, [](float v) { return !std::isfinite(v); });
+  };
+  const auto bad_maps = [&](const DeferredTargets& targets) {
+    return std::any_of(targets.maps.begin(), targets.maps.end(), [&](const DeviceImage& map) {
+      const auto texels = download_map(map);
+      return bad_floats(&texels.front().x, 4 * texels.size());
+    });
+  };
+  const auto bad_lights = [&](const auto& lights) {
+    return bad_floats(reinterpret_cast<const float*>(lights.data()), lights.size() * sizeof(lights[0]) / sizeof(float));
+  };
+  if (bad_maps(*gbuffer_)) return "gbuffer";
+  if (bad_maps(*rsm_)) return "rsm";
+  if (const auto p = importance(); !p.empty() && bad_floats(p.data(), p.size())) return "importance.rsm";
+  if (bad_lights(vsgls()) || bad_lights(vpls())) return "generate.rsm";
+  const Image image = indirect();
+  return bad_floats(&image.pixels.front().x, 3 * image.pixels.size()) ? "shade" : "";
 }
 
 Image Frame::render_direct() {

@@ -70,6 +70,13 @@ class Frame {
   const gpu::Emitter& camera() const { return camera_; }
   const gpu::Emitter& light() const { return light_; }
 
+  // The first pass, in the order of the frame, whose output of the last render() holds a NaN or Inf; empty
+  // when none does.
+  std::string first_bad_pass() const;
+  // Kernels and scratch memory that the method asked for.
+  size_t method_kernels() const { return context_.kernel_count(); }
+  size_t method_bytes() const { return context_.scratch_bytes(); }
+
   // Direct light of the current view, outside any timing.
   Image render_direct();
 

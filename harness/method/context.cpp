@@ -30,8 +30,24 @@ size_t ScratchPool::bytes() const {
   return total;
 }
 
+const Kernel& MethodContext::kernel(const std::string& file, const ShaderDefines& defines) {
+  return **used_kernels_.insert(&kernels_.get(folder_ / file, defines)).first;
+}
+
 const Kernel& MethodContext::shared_kernel(const std::string& file, const ShaderDefines& defines) {
-  return kernels_.get(data_root() / "harness" / "method" / "shaders" / file, defines);
+  const auto path = data_root() / "harness" / "method" / "shaders" / file;
+  return **used_kernels_.insert(&kernels_.get(path, defines)).first;
+}
+
+Buffer& MethodContext::scratch(const std::string& name, size_t bytes) {
+  used_bytes_[name] = bytes;
+  return scratch_.get(name, bytes);
+}
+
+size_t MethodContext::scratch_bytes() const {
+  size_t total = 0;
+  for (const auto& [name, bytes] : used_bytes_) total += bytes;
+  return total;
 }
 
 }  // namespace vsglbench

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -45,17 +46,21 @@ class MethodContext {
       : kernels_(kernels), scratch_(scratch), folder_(std::move(folder)) {}
   Device& device() { return kernels_.device(); }
   // A kernel from the method's own folder.
-  const Kernel& kernel(const std::string& file, const ShaderDefines& defines = {}) {
-    return kernels_.get(folder_ / file, defines);
-  }
+  const Kernel& kernel(const std::string& file, const ShaderDefines& defines = {});
   // A kernel that several methods share, from harness/method/shaders.
   const Kernel& shared_kernel(const std::string& file, const ShaderDefines& defines = {});
-  Buffer& scratch(const std::string& name, size_t bytes) { return scratch_.get(name, bytes); }
+  Buffer& scratch(const std::string& name, size_t bytes);
+
+  // What the method has asked for so far.
+  size_t kernel_count() const { return used_kernels_.size(); }
+  size_t scratch_bytes() const;
 
  private:
   KernelLibrary& kernels_;
   ScratchPool& scratch_;
   std::filesystem::path folder_;
+  std::set<const Kernel*> used_kernels_;
+  std::map<std::string, size_t> used_bytes_;
 };
 
 }  // namespace vsglbench

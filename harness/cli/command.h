@@ -1,0 +1,20 @@
+// One file a subcommand; each adds itself to the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace vsglbench {
+
+// Set by the subcommand that ran.
+struct CommandResult {
+  int exit_code = 0;
+};
+
+void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
+void add_list_command(CLI::App& app, CommandResult* result);
+void add_reference_command(CLI::App& app, CommandResult* result);
+void add_doctor_command(CLI::App& app, CommandResult* result);
+
+}  // namespace vsglbench

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/file.h"
+#include "base/json.h"
+#include "cli/command.h"
+#include "method/method.h"
+#include "run/config.h"
+#include "run/runner.h"
+#include "scene/scene_file.h"
+
+namespace vsglbench {
+namespace {
+
+Json list_methods() {
+  Json out = Json::array();
+  for (const MethodInfo* method : all_methods()) {
+    Json parameters = Json::array();
+    for (const auto& p : method->parameters) {
+      Json entry = {{"name", p.name}, {"default", p.default_value}, {"description", p.description}};
+      if (p.default_value.is_string()) {
+        entry["choices"] = p.choices;
+      } else {
+        entry["minimum"] = p.minimum;
+        entry["maximum"] = p.maximum;
+      }
+      parameters.push_back(entry);
+    }
+    out.push_back({{"name", method->name}, {"summary", method->summary}, {"source", method->source},
+                   {"parameters", parameters}});
+  }
+  return out;
+}
+
+Json list_all_scenes(const std::string& assets) {
+  Json out = Json::array();
+  for (const auto& scene : list_scenes({data_root() / "scenes", assets_directory(assets)})) {
+    out.push_back({{"name", scene.name},
+                   {"summary", scene.description},
+                   {"views", scene.views},
+                   {"default_view", scene.default_view},
+                   {"present", scene.asset_present},
+                   {"get_it", scene.get_it}});
+  }
+  return out;
+}
+
+Json list_configs() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(data_root() / "configs")) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  Json out = Json::array();
+  for (const auto& file : files) {
+    const Config config = load_config(file);
+    out.push_back({{"name", config.name}, {"summary", config.description}, {"cases", config.cases.size()}});
+  }
+  return out;
+}
+
+Json list_all_devices() {
+  Json out = Json::array();
+  for (const auto& d : list_devices()) {
+    out.push_back({{"name", d.name},
+                   {"summary", fmt::format("{}, {} {}, Vulkan {}, {} lanes a subgroup", d.type, d.driver,
+                                           d.driver_version, d.api, d.subgroup_size)},
+                   {"index", d.index},
+                   {"usable", d.missing.empty()},
+                   {"missing", d.missing}});
+  }
+  return out;
+}
+
+void print_text(const Json& rows) {
+  size_t width = 0;
+  for (const auto& row : rows) width = std::max(width, row["name"].get<std::string>().size());
+  for (const auto& row : rows) {
+    fmt::print("{:<{}}  {}\n", row["name"].get<std::string>(), width, row["summary"].get<std::string>());
+    const std::string indent(width + 2, ' ');
+    for (const auto& p : row.value("parameters", Json::array())) {
+      fmt::print("{}{} (default {}): {}\n", indent, p["name"].get<std::string>(), p["default"].dump(),
+                 p["description"].get<std::string>());
+    }
+    if (row.contains("views")) {
+      std::string views;
+      for (const auto& v : row["views"]) views += (views.empty() ? "" : ", ") + v.get<std::string>();
+      fmt::print("{}views: {}\n", indent, views);
+    }
+    if (!row.value("present", true)) fmt::print("{}not on this machine: {}\n", indent, row["get_it"].get<std::string>());
+    if (row.contains("missing") && !row["missing"].empty()) fmt::print("{}lacks {}\n", indent, row["missing"].dump());
+  }
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, CommandResult*) {
+  auto what = std::make_shared<std::string>();
+  auto assets = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("list", "methods, scenes, configs or devices");
+  command->footer("Example: vsglbench list methods --json");
+  command->add_option("what", *what, "methods, scenes, configs or devices")
+      ->required()
+      ->check(CLI::IsMember({"methods", "scenes", "configs", "devices"}));
+  command->add_option("--assets", *assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
+  command->add_flag("--json", *json, "as JSON");
+  command->callback([=] {
+    const Json rows = *what == "methods"   ? list_methods()
+                      : *what == "scenes"  ? list_all_scenes(*assets)
+                      : *what == "configs" ? list_configs()
+                                           : list_all_devices();
+    if (*json) {
+      fmt::print("{}\n", rows.dump(2));
+    } else {
+      print_text(rows);
+    }
+  });
+}
+
+}  // namespace vsglbench

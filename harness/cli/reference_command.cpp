@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "base/progress.h"
+#include "cli/command.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "reference/cache.h"
+#include "run/runner.h"
+#include "scene/scene_file.h"
+
+namespace vsglbench {
+namespace {
+
+struct ReferenceOptions {
+  std::string scene;
+  std::filesystem::path out = ".", assets;
+  ReferenceParameters parameters;
+  bool no_occlusion = false;
+};
+
+void compute(const ReferenceOptions& options) {
+  ensure_writable_directory(options.out);
+  const Scene scene = load_scene(options.scene, {data_root() / "scenes", assets_directory(options.assets)});
+  ReferenceParameters parameters = options.parameters;
+  parameters.occlusion = !options.no_occlusion;
+  bool cached = false;
+  const ReferenceResult r = load_or_compute(scene, parameters, &cached);
+  std::string stem = scene.name;
+  for (char& c : stem) c = c == ':' || c == '/' ? '_' : c;
+  write_exr(options.out / (stem + ".reference.exr"), r.mean);
+  write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
+  fmt::print("{}: {} triangles, {} samples, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE, hash {}\n",
+             scene.name, scene.triangles.size(), r.samples, static_cast<double>(r.rays) * 1e-6,
+             format_duration(r.seconds), cached ? "from the cache" : "computed", r.noise_floor_smape, r.hash);
+  fmt::print("{}\n", (options.out / (stem + ".reference.exr")).string());
+}
+
+}  // namespace
+
+void add_reference_command(CLI::App& app, CommandResult*) {
+  auto options = std::make_shared<ReferenceOptions>();
+  CLI::App* command = app.add_subcommand("reference", "compute a scene's ground truth, or fetch it from the cache");
+  command->footer("Example: vsglbench reference cornell --width 480 --height 272 --samples 512 --out .");
+  command->add_option("scene", options->scene, "NAME or NAME:VIEW, or a scene.json")->required();
+  command->add_option("--out", options->out, "folder of the EXR and PNG")->capture_default_str();
+  command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
+  command->add_option("--width", options->parameters.width)->check(CLI::Range(1, 16384))->capture_default_str();
+  command->add_option("--height", options->parameters.height)->check(CLI::Range(1, 16384))->capture_default_str();
+  command->add_option("--samples", options->parameters.samples, "a pixel and strategy")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command->add_option("--seed", options->parameters.seed)->capture_default_str();
+  command->add_flag("--no-occlusion", options->no_occlusion, "ignore occluders between the two bounces");
+  command->callback([=] { compute(*options); });
+}
+
+}  // namespace vsglbench

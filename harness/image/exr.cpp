@@ -1,0 +1,233 @@
+#include "image/exr.h"
+
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <cstring>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+constexpr int kMaxSide = 1 << 15;
+constexpr size_t kMaxChannels = 256;
+// ZIP's deflate gains at most a factor of 1032; a header that promises more is damaged.
+constexpr uint64_t kMaxCompression = 1100;
+
+// Files pass through memory: OpenEXR's own output stream loses the error of a disk that fills up as it
+// closes.
+class MemoryOutput : public Imf::OStream {
+ public:
+  MemoryOutput() : OStream("memory") {}
+  void write(const char c[], int n) override {
+    if (at_ + n > bytes_.size()) bytes_.resize(at_ + n);
+    std::memcpy(bytes_.data() + at_, c, n);
+    at_ += n;
+  }
+  uint64_t tellp() override { return at_; }
+  void seekp(uint64_t pos) override { at_ = pos; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+  uint64_t at_ = 0;
+};
+
+class MemoryInput : public Imf::IStream {
+ public:
+  explicit MemoryInput(const std::vector<uint8_t>& bytes) : IStream("memory"), bytes_(bytes) {}
+  bool read(char c[], int n) override {
+    if (n < 0 || at_ > bytes_.size() || bytes_.size() - at_ < size_t(n)) {
+      throw std::runtime_error("ends too early");
+    }
+    std::memcpy(c, bytes_.data() + at_, n);
+    at_ += n;
+    return at_ < bytes_.size();
+  }
+  uint64_t tellg() override { return at_; }
+  void seekg(uint64_t pos) override { at_ = pos; }
+
+ private:
+  const std::vector<uint8_t>& bytes_;
+  uint64_t at_ = 0;
+};
+
+std::string channel_name(const std::string& layer, char component) {
+  return layer.empty() ? std::string(1, component) : layer + "." + component;
+}
+
+// A float channel of `width` columns whose first value is at `data`, for a data window that starts at
+// `origin`.
+Imf::Slice float_slice(const float* data, const Imath::V2i& origin, size_t stride, size_t width) {
+  const auto address = reinterpret_cast<intptr_t>(data) -
+                       static_cast<intptr_t>((origin.x + static_cast<intptr_t>(origin.y) * width) * stride);
+  return Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(address), stride, stride * width);
+}
+
+void insert_color(Imf::FrameBuffer& frame, const std::string& layer, const Image& image,
+                  const Imath::V2i& origin = {0, 0}) {
+  for (int c = 0; c < 3; ++c) {
+    frame.insert(channel_name(layer, "RGB"[c]),
+                 float_slice(&image.pixels[0][c], origin, sizeof(glm::vec3), image.width));
+  }
+}
+
+void check_sizes(const ExrLayers& layers) {
+  if (layers.width == 0 || layers.height == 0) throw std::runtime_error("the image is empty");
+  if (layers.colors.empty() && layers.scalars.empty()) throw std::runtime_error("there is no layer");
+  const size_t count = size_t(layers.width) * layers.height;
+  for (const auto& [name, image] : layers.colors) {
+    if (image.width != layers.width || image.height != layers.height || image.pixels.size() != count) {
+      throw std::runtime_error(fmt::format("layer '{}' is {}x{}, not {}x{}", name, image.width, image.height,
+                                           layers.width, layers.height));
+    }
+  }
+  for (const auto& [name, values] : layers.scalars) {
+    if (values.size() != count) {
+      throw std::runtime_error(fmt::format("layer '{}' has {} values, not {}", name, values.size(), count));
+    }
+  }
+}
+
+std::string encode(const ExrLayers& layers) {
+  check_sizes(layers);
+  Imf::Header header(static_cast<int>(layers.width), static_cast<int>(layers.height));
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer frame;
+  for (const auto& [name, image] : layers.colors) insert_color(frame, name, image);
+  for (const auto& [name, values] : layers.scalars) {
+    frame.insert(name, float_slice(values.data(), {0, 0}, sizeof(float), layers.width));
+  }
+  for (auto it = frame.begin(); it != frame.end(); ++it)
+    header.channels().insert(it.name(), Imf::Channel(Imf::FLOAT));
+  for (const auto& [name, text] : layers.attributes) header.insert(name, Imf::StringAttribute(text));
+  MemoryOutput memory;
+  {
+    Imf::OutputFile file(memory, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(static_cast<int>(layers.height));
+  }
+  return memory.bytes();
+}
+
+// Width and height of the data window, or an error where decoding would need absurdly more memory than the
+// file holds.
+Imath::V2i checked_size(const Imf::InputFile& file, uint64_t file_bytes) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const int64_t width = int64_t(window.max.x) - window.min.x + 1,
+                height = int64_t(window.max.y) - window.min.y + 1;
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+    throw std::runtime_error(fmt::format("its size {}x{} is out of range", width, height));
+  }
+  size_t channels = 0;
+  for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it) {
+    ++channels;
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
+      throw std::runtime_error(fmt::format("channel '{}' is subsampled", it.name()));
+    }
+  }
+  if (channels > kMaxChannels) throw std::runtime_error(fmt::format("it has {} channels", channels));
+  if (uint64_t(width) * height * channels * sizeof(float) > file_bytes * kMaxCompression + (1u << 16)) {
+    throw std::runtime_error(fmt::format("{} bytes cannot hold {}x{} pixels", file_bytes, width, height));
+  }
+  return Imath::V2i(static_cast<int>(width), static_cast<int>(height));
+}
+
+// Names of the complete R, G, B triples among the channels.
+std::vector<std::string> color_layers(const Imf::ChannelList& channels) {
+  std::vector<std::string> layers;
+  for (auto it = channels.begin(); it != channels.end(); ++it) {
+    const std::string name = it.name();
+    if (name != "R" && !name.ends_with(".R")) continue;
+    const std::string layer = name == "R" ? "" : name.substr(0, name.size() - 2);
+    if (channels.findChannel(channel_name(layer, 'G')) && channels.findChannel(channel_name(layer, 'B'))) {
+      layers.push_back(layer);
+    }
+  }
+  return layers;
+}
+
+ExrLayers decode(const std::vector<uint8_t>& bytes) {
+  // Refuse absurd sizes before the library makes its tables for them.
+  Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+  MemoryInput memory(bytes);
+  Imf::InputFile file(memory);
+  if (!file.isComplete()) throw std::runtime_error("it is truncated");
+  const Imath::V2i size = checked_size(file, bytes.size()), origin = file.header().dataWindow().min;
+
+  ExrLayers layers;
+  layers.width = size.x;
+  layers.height = size.y;
+  Imf::FrameBuffer frame;
+  for (const auto& name : color_layers(file.header().channels())) {
+    Image& image = layers.colors[name] = Image(layers.width, layers.height);
+    insert_color(frame, name, image, origin);
+  }
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto it = channels.begin(); it != channels.end(); ++it) {
+    if (frame.findSlice(it.name())) continue;
+    auto& values = layers.scalars[it.name()];
+    values.resize(size_t(layers.width) * layers.height);
+    frame.insert(it.name(), float_slice(values.data(), origin, sizeof(float), layers.width));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(origin.y, origin.y + size.y - 1);
+
+  for (auto it = file.header().begin(); it != file.header().end(); ++it) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+    if (text) layers.attributes[it.name()] = text->value();
+  }
+  return layers;
+}
+
+// The library's messages may run over several lines.
+std::string one_line(std::string message) {
+  for (char& c : message) c = c == '\n' ? ' ' : c;
+  return message;
+}
+
+}  // namespace
+
+void write_exr(const fs::path& path, const Image& image) {
+  write_exr(path, ExrLayers{image.width, image.height, {{"", image}}, {}, {}});
+}
+
+void write_exr(const fs::path& path, const ExrLayers& layers) {
+  std::string bytes;
+  try {
+    bytes = encode(layers);
+  } catch (const std::exception& e) {
+    throw fail(ErrorKind::output, "{}: cannot be written as EXR: {}", path.string(), one_line(e.what()));
+  }
+  write_text(path, bytes);
+}
+
+ExrLayers read_exr_layers(const fs::path& path) {
+  const std::vector<uint8_t> bytes = read_bytes(path);
+  try {
+    return decode(bytes);
+  } catch (const std::exception& e) {
+    throw fail(ErrorKind::output, "{}: not a readable EXR file: {}", path.string(), one_line(e.what()));
+  }
+}
+
+Image read_exr(const fs::path& path) {
+  ExrLayers layers = read_exr_layers(path);
+  const auto it = layers.colors.find("");
+  if (it == layers.colors.end()) {
+    throw fail(ErrorKind::output, "{}: lacks the channels R, G and B", path.string());
+  }
+  return std::move(it->second);
+}
+
+}  // namespace vsglbench

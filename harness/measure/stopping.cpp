@@ -1,0 +1,31 @@
+#include "measure/stopping.h"
+
+#include "measure/statistics.h"
+
+namespace vsglbench {
+
+std::string_view name(StopReason reason) {
+  switch (reason) {
+    case StopReason::converged:
+      return "converged";
+    case StopReason::time_limit:
+      return "time_limit";
+    case StopReason::max_samples:
+      return "max_samples";
+  }
+  return "";
+}
+
+std::optional<StopReason> should_stop(const StoppingRule& rule, std::span<const double> samples,
+                                      double elapsed_s) {
+  if (samples.empty()) return std::nullopt;
+  if (samples.size() >= rule.min_samples &&
+      bootstrap_median_ci95(samples).width() < rule.relative_width * median(samples)) {
+    return StopReason::converged;
+  }
+  if (samples.size() >= rule.max_samples) return StopReason::max_samples;
+  if (elapsed_s >= rule.time_limit_s) return StopReason::time_limit;
+  return std::nullopt;
+}
+
+}  // namespace vsglbench

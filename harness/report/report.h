@@ -1,0 +1,204 @@
+// The report of a run, `vsglbench.report/1`: what report.schema.json describes, as structures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "image/metrics.h"
+#include "measure/statistics.h"
+#include "measure/stopping.h"
+#include "measure/verdict.h"
+
+namespace vsglbench {
+
+inline constexpr const char* kReportSchema = "vsglbench.report/1";
+
+struct GitState {
+  std::string commit = "unknown";  // 40 hex digits, or "unknown" outside a checkout
+  bool dirty = false;              // tracked files differed from the commit when it was built
+};
+
+struct DeviceReport {
+  std::string name, type;  // type: "cpu", "discrete", "integrated", "virtual", "other"
+  std::string driver, driver_version, api;
+  uint32_t subgroup_size = 0;
+  double timestamp_period_ns = 0;
+  std::map<std::string, std::string> settings;  // what steers the driver, such as LP_NATIVE_VECTOR_WIDTH
+};
+
+struct HostInfo {
+  std::string cpu, os;
+  uint32_t cores = 0;
+  uint64_t memory_bytes = 0;
+};
+
+struct SceneReport {
+  std::string name, hash;
+  uint64_t triangles = 0;
+  std::vector<std::string> warnings;
+  glm::dvec3 light_flux{0};  // W inside the light's frustum
+  double exposure = 1;       // of the scene's previews
+  std::string contact;       // relative path of the contact sheet; empty: none
+};
+
+// Two measurements of one case under two names: what they show as a difference is noise.
+struct AaPair {
+  std::string case_id, twin_id;
+  Ratio ratio;  // of the frame medians, case / twin
+  double noise_floor = 0;
+};
+
+struct Effect {
+  std::string name, reason;
+  bool needed = false;
+  std::vector<std::string> passes;
+  double ms = 0;
+};
+
+struct PassTiming {
+  std::string name;  // dotted: "generate.rsm.sort"
+  Summary ms;
+};
+
+struct FrameTiming {
+  Summary span;                            // ms from the first to the last timestamp of each frame
+  double sum_ms = 0, unattributed_ms = 0;  // medians over frames of Σ passes, and of span − Σ passes
+};
+
+struct GenerateResult {
+  double gbuffer_ms = 0, rsm_ms = 0;  // medians of the two halves
+  Summary total;                      // ms of both halves in each frame
+  uint64_t lights = 0, empty = 0;     // lights asked for and evaluated; those of them without flux
+  std::optional<double> overlap,
+      gap;  // share of texels in several lights, in none; absent: not defined for the method
+  uint64_t shaders = 0, dispatches = 0, memory_bytes = 0;
+};
+
+// A metric's mean over seeds. Without a value (a black reference) `undefined` says why.
+struct MetricResult {
+  std::optional<double> value;
+  std::optional<Interval> ci95;  // Student's, over seeds; absent for a single seed
+  std::string formula;           // MetricFormula::id
+  std::map<std::string, double> constants;
+  std::string undefined;
+};
+
+struct ReferenceInfo {
+  std::string hash;
+  uint64_t samples = 0;          // paths a pixel
+  double noise_floor_smape = 0;  // its two halves against each other, percent
+  std::optional<double> noise_floor_rmse;
+};
+
+struct Accuracy {
+  MetricResult smape, rmse, rrmse, mrse, bias;
+  std::optional<ErrorQuantiles> quantiles;
+  ReferenceInfo reference;
+  uint64_t pixels = 0;       // that the camera sees a surface at
+  bool below_floor = false;  // smape is not above noise_floor_smape
+};
+
+struct SeedResult {
+  uint64_t seed = 0;
+  Errors errors;
+};
+
+struct FlickerSeries {
+  double value = 0, p99 = 0;
+  uint64_t worst_frame = 0;
+  std::vector<double> series;
+};
+
+struct Temporal {
+  FlickerSeries derivative, still;  // "derivative" and "static" in the file
+};
+
+struct FirstBad {
+  std::string pass;  // the first pass whose output held a NaN or Inf; empty where that is not known
+  glm::uvec2 pixel{0};
+};
+
+struct HealthReport {
+  uint64_t nan = 0, inf = 0, negative = 0;
+  std::optional<FirstBad> first_bad;
+};
+
+struct Stopping {
+  StopReason reason = StopReason::converged;
+  uint64_t frames = 0, warmup_frames = 0;
+};
+
+enum class Status { ok, failed, skipped };
+std::string_view name(Status status);
+
+struct CaseError {
+  std::string kind, message;  // kind: "case_failed", "scene", "plugin", "device", …
+};
+
+// One case. status ok needs everything but error, effects and temporal; failed and skipped need `error`, and
+// keep whatever was measured before.
+struct CaseResult {
+  std::string id, scene, method;
+  Json parameters = Json::object();
+  Status status = Status::ok;
+  std::optional<CaseError> error;
+  std::optional<std::vector<Effect>> effects;
+  std::vector<PassTiming> passes;
+  std::optional<FrameTiming> frame;
+  std::optional<GenerateResult> generate;
+  std::optional<Accuracy> accuracy;
+  std::vector<SeedResult> seeds;
+  std::optional<Temporal> temporal;
+  std::optional<HealthReport> health;
+  std::optional<Stopping> stopping;
+  std::map<std::string, std::string> images;  // indirect, reference, error, …: paths relative to the report
+};
+
+struct Report {
+  std::string created;  // UTC, "2024-05-01T12:00:00Z"
+  std::vector<std::string> argv;
+  GitState git;
+  DeviceReport device;
+  HostInfo host;
+  Json config = Json::object();
+  bool complete = false;  // every planned case is in it
+  std::vector<SceneReport> scenes;
+  std::optional<AaPair> aa;
+  std::vector<CaseResult> cases;
+};
+
+HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
+
+// Means and intervals over seeds; a metric that any seed lacks is undefined. Throws Error(case_failed) for no
+// seeds.
+Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference);
+
+// Frame by frame, the sum of the passes whose dotted name starts with one of `prefixes` ("generate." or a
+// whole name); nothing when none does. Throws std::invalid_argument when their sample counts differ.
+std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
+                                     const std::vector<std::string>& prefixes);
+
+// Span, Σ passes and the unattributed rest from the raw per-frame spans.
+FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes);
+
+// "2024-05-01T12:00:00Z".
+std::string utc_now();
+
+const Json& report_schema();
+Json to_json(const Report& report);
+Report report_from_json(const Json& json);  // `json` obeys the schema
+
+// Throws Error(output) that names the field when a number is not finite or the report disobeys the schema;
+// the file at `path` then keeps its old content. Written atomically.
+void write_report(const std::filesystem::path& path, const Report& report);
+
+// For resuming and comparing. Throws Error(config) with file and line when it is damaged or disobeys the
+// schema.
+Report read_report(const std::filesystem::path& path);
+
+}  // namespace vsglbench

@@ -1,0 +1,219 @@
+// The fields of a report, in the order of the file.
+#include "report/json_archive.h"
+
+namespace vsglbench {
+
+void fields(auto& a, Is<GitState> auto& v) {
+  a("commit", v.commit);
+  a("dirty", v.dirty);
+}
+
+void fields(auto& a, Is<DeviceReport> auto& v) {
+  a("name", v.name);
+  a("type", v.type);
+  a("driver", v.driver);
+  a("driver_version", v.driver_version);
+  a("api", v.api);
+  a("subgroup_size", v.subgroup_size);
+  a("timestamp_period_ns", v.timestamp_period_ns);
+  a("settings", v.settings);
+}
+
+void fields(auto& a, Is<HostInfo> auto& v) {
+  a("cpu", v.cpu);
+  a("cores", v.cores);
+  a("memory_bytes", v.memory_bytes);
+  a("os", v.os);
+}
+
+void fields(auto& a, Is<SceneReport> auto& v) {
+  a("name", v.name);
+  a("hash", v.hash);
+  a("triangles", v.triangles);
+  a("warnings", v.warnings);
+  a("light_flux", v.light_flux);
+  a("exposure", v.exposure);
+  a.unless_empty("contact", v.contact);
+}
+
+void fields(auto& a, Is<AaPair> auto& v) {
+  a("case", v.case_id);
+  a("twin", v.twin_id);
+  a("ratio", v.ratio.value);
+  a("ci95", v.ratio.ci95);
+  a("noise_floor", v.noise_floor);
+}
+
+void fields(auto& a, Is<Effect> auto& v) {
+  a("name", v.name);
+  a("needed", v.needed);
+  a("reason", v.reason);
+  a("passes", v.passes);
+  a("ms", v.ms);
+}
+
+void fields(auto& a, Is<Summary> auto& v) {
+  a("median_ms", v.median);
+  a("min_ms", v.min);
+  a("q1_ms", v.q1);
+  a("q3_ms", v.q3);
+  a("p95_ms", v.p95);
+  a("ci95_ms", v.ci95);
+  a("samples_ms", v.samples);
+}
+
+void fields(auto& a, Is<PassTiming> auto& v) {
+  a("name", v.name);
+  fields(a, v.ms);
+}
+
+void fields(auto& a, Is<FrameTiming> auto& v) {
+  a("span_ms", v.span.median);
+  a("sum_ms", v.sum_ms);
+  a("unattributed_ms", v.unattributed_ms);
+  a("span", v.span);
+}
+
+void fields(auto& a, Is<GenerateResult> auto& v) {
+  a("gbuffer_ms", v.gbuffer_ms);
+  a("rsm_ms", v.rsm_ms);
+  a("total", v.total);
+  a("lights", v.lights);
+  a("empty", v.empty);
+  a("overlap", v.overlap);
+  a("gap", v.gap);
+  a("shaders", v.shaders);
+  a("dispatches", v.dispatches);
+  a("memory_bytes", v.memory_bytes);
+}
+
+void fields(auto& a, Is<Stopping> auto& v) {
+  a("reason", v.reason);
+  a("frames", v.frames);
+  a("warmup_frames", v.warmup_frames);
+}
+
+void fields(auto& a, Is<MetricResult> auto& v) {
+  a("value", v.value);
+  a("ci95", v.ci95);
+  a("formula", v.formula);
+  a("constants", v.constants);
+  a.unless_empty("undefined", v.undefined);
+}
+
+void fields(auto& a, Is<ErrorQuantiles> auto& v) {
+  a("p50", v.p50);
+  a("p99", v.p99);
+  a("p99_9", v.p999);
+}
+
+void fields(auto& a, Is<ReferenceInfo> auto& v) {
+  a("hash", v.hash);
+  a("samples", v.samples);
+  a("noise_floor_smape", v.noise_floor_smape);
+  a("noise_floor_rmse", v.noise_floor_rmse);
+}
+
+void fields(auto& a, Is<Accuracy> auto& v) {
+  a("smape", v.smape);
+  a("rmse", v.rmse);
+  a("rrmse", v.rrmse);
+  a("mrse", v.mrse);
+  a("bias", v.bias);
+  a("quantiles", v.quantiles);
+  a("reference", v.reference);
+  a("pixels", v.pixels);
+  a("below_floor", v.below_floor);
+}
+
+void fields(auto& a, Is<SeedResult> auto& v) {
+  a("seed", v.seed);
+  a("smape", v.errors.smape);
+  a("rmse", v.errors.rmse);
+  a("rrmse", v.errors.rrmse);
+  a("mrse", v.errors.mrse);
+  a("bias", v.errors.bias);
+}
+
+void fields(auto& a, Is<FlickerSeries> auto& v) {
+  a("value", v.value);
+  a("p99", v.p99);
+  a("worst_frame", v.worst_frame);
+  a("series", v.series);
+}
+
+void fields(auto& a, Is<Temporal> auto& v) {
+  a("derivative", v.derivative);
+  a("static", v.still);
+}
+
+void fields(auto& a, Is<FirstBad> auto& v) {
+  a.unless_empty("pass", v.pass);
+  a("pixel", v.pixel);
+}
+
+void fields(auto& a, Is<HealthReport> auto& v) {
+  a("nan", v.nan);
+  a("inf", v.inf);
+  a("negative", v.negative);
+  a("first_bad", v.first_bad);
+}
+
+void fields(auto& a, Is<CaseError> auto& v) {
+  a("kind", v.kind);
+  a("message", v.message);
+}
+
+void fields(auto& a, Is<CaseResult> auto& v) {
+  a("id", v.id);
+  a("scene", v.scene);
+  a("method", v.method);
+  a("parameters", v.parameters);
+  a("status", v.status);
+  a("error", v.error);
+  a("effects", v.effects);
+  a.unless_empty("passes", v.passes);
+  a("frame", v.frame);
+  a("generate", v.generate);
+  a("stopping", v.stopping);
+  a("accuracy", v.accuracy);
+  a.unless_empty("seeds", v.seeds);
+  a("temporal", v.temporal);
+  a("health", v.health);
+  a.unless_empty("images", v.images);
+}
+
+void fields(auto& a, Is<Report> auto& v) {
+  a.constant("schema", kReportSchema);
+  a("created", v.created);
+  a("argv", v.argv);
+  a("git", v.git);
+  a.object("environment", [&](auto& inner) {
+    inner("device", v.device);
+    inner("host", v.host);
+  });
+  a("config", v.config);
+  a("complete", v.complete);
+  a("scenes", v.scenes);
+  a("aa", v.aa);
+  a("cases", v.cases);
+}
+
+Json to_json(const Report& report) {
+  JsonWriter writer;
+  fields(writer, report);
+  return std::move(writer.json);
+}
+
+Report report_from_json(const Json& json) {
+  Report report;
+  JsonReader reader(json);
+  fields(reader, report);
+  for (CaseResult& c : report.cases) {
+    if (!c.accuracy) continue;
+    for (SeedResult& s : c.seeds) s.errors.pixels = c.accuracy->pixels;
+  }
+  return report;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "report/synthetic_report.h"
+
+using namespace vsglbench;
+
+namespace {
+
+std::vector<std::string> violations(const Json& json) { return schema_violations(json, report_schema()); }
+
+// The synthetic report with one change; says what the schema makes of it.
+std::string first_violation(const std::function<void(Json&)>& change) {
+  Json json = to_json(synthetic_report());
+  change(json);
+  const auto found = violations(json);
+  return found.empty() ? "" : found.front();
+}
+
+// Pointers of every object's keys, depth first.
+void collect(const Json& value, const std::string& at, std::vector<std::string>& out) {
+  if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      const std::string child = at + "/" + pointer_token(key);
+      out.push_back(child);
+      collect(member, child, out);
+    }
+  } else if (value.is_array()) {
+    for (size_t i = 0; i < value.size(); ++i) collect(value[i], fmt::format("{}/{}", at, i), out);
+  }
+}
+
+Json& at(Json& json, const std::string& pointer) { return json.at(Json::json_pointer(pointer)); }
+
+}  // namespace
+
+TEST(ReportSchema, AFullReportIsValid) {
+  EXPECT_EQ(violations(to_json(synthetic_report())), std::vector<std::string>());
+}
+
+TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
+  const Json full = to_json(synthetic_report());
+  std::vector<std::string> pointers, optional;
+  collect(full, "", pointers);
+  for (const auto& pointer : pointers) {
+    if (pointer.starts_with("/config/") || pointer.find("/parameters/") != std::string::npos ||
+        pointer.find("/settings/") != std::string::npos || pointer.find("/constants/") != std::string::npos) {
+      continue;  // free-form
+    }
+    Json json = full;
+    const size_t slash = pointer.rfind('/');
+    json.at(Json::json_pointer(pointer.substr(0, slash))).erase(pointer.substr(slash + 1));
+    if (violations(json).empty()) optional.push_back(pointer);
+  }
+  std::vector<std::string> expected = {"/scenes/0/contact", "/aa"};
+  for (const char* key :
+       {"effects", "generate/overlap", "generate/gap", "accuracy/smape/ci95", "accuracy/rmse/ci95",
+        "accuracy/rrmse/ci95", "accuracy/mrse/ci95", "accuracy/bias/ci95", "accuracy/quantiles",
+        "accuracy/reference/noise_floor_rmse", "temporal"}) {
+    expected.push_back(std::string("/cases/0/") + key);
+  }
+  for (int seed = 0; seed < 8; ++seed) {
+    for (const char* key : {"rrmse", "mrse", "bias"})
+      expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
+  }
+  for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {
+    expected.push_back(std::string("/cases/1/") + key);
+  }
+  std::sort(expected.begin(), expected.end());
+  std::sort(optional.begin(), optional.end());
+  EXPECT_EQ(optional, expected);
+}
+
+TEST(ReportSchema, NullIsNowhereAllowed) {
+  const Json full = to_json(synthetic_report());
+  std::vector<std::string> pointers;
+  collect(full, "", pointers);
+  EXPECT_GT(pointers.size(), 150u);
+  for (const auto& pointer : pointers) {
+    if (pointer.starts_with("/config/") || pointer.find("/parameters/") != std::string::npos) continue;
+    Json json = full;
+    at(json, pointer) = nullptr;
+    EXPECT_FALSE(violations(json).empty()) << pointer;
+  }
+}
+
+TEST(ReportSchema, UnknownFieldsAreRefused) {
+  for (const char* object : {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa", "/cases/0",
+                             "/cases/0/passes/1", "/cases/0/frame", "/cases/0/generate", "/cases/0/accuracy",
+                             "/cases/0/accuracy/bias", "/cases/0/accuracy/reference", "/cases/0/seeds/2",
+                             "/cases/0/health", "/cases/1/error", "/cases/0/temporal/static"}) {
+    EXPECT_NE(first_violation([&](Json& j) { at(j, object)["extra"] = 1; }), "") << object;
+  }
+}
+
+TEST(ReportSchema, TheStatusDecidesWhatACaseHolds) {
+  const auto broken = [](const std::string& pointer, const Json& value) {
+    return first_violation([&](Json& j) { at(j, pointer) = value; });
+  };
+  EXPECT_NE(broken("/cases/0/status", "fine"), "");
+  EXPECT_NE(broken("/cases/0/status", "failed"), "");  // without an error
+  EXPECT_NE(broken("/cases/1/status", "ok"), "");      // with an error, without numbers
+  EXPECT_NE(broken("/cases/0/health/nan", 1), "");     // an ok case has no bad pixel
+  EXPECT_EQ(broken("/cases/1/health/nan", 5), "");
+  EXPECT_NE(first_violation([](Json& j) { j["cases"][0]["error"] = {{"kind", "x"}, {"message", "y"}}; }), "");
+  EXPECT_NE(first_violation([](Json& j) { j["cases"][0]["passes"] = Json::array(); }), "");
+  EXPECT_NE(first_violation([](Json& j) { j["cases"][0]["images"].erase("error"); }), "");
+}
+
+TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
+  const std::pair<const char*, Json> faults[] = {{"/schema", "vsglbench.report/2"},
+                                                 {"/created", "yesterday"},
+                                                 {"/git/commit", "main"},
+                                                 {"/argv", Json::array()},
+                                                 {"/environment/device/type", "toaster"},
+                                                 {"/environment/device/timestamp_period_ns", 0},
+                                                 {"/scenes/0/triangles", -1},
+                                                 {"/scenes/0/triangles", 1.5},
+                                                 {"/scenes/0/light_flux", {1, 2}},
+                                                 {"/scenes/0/contact", "/absolute.png"},
+                                                 {"/aa/ratio", 0},
+                                                 {"/cases/0/id", ""},
+                                                 {"/cases/0/passes/0/name", "Gen erate"},
+                                                 {"/cases/0/passes/0/samples_ms", Json::array()},
+                                                 {"/cases/0/passes/0/samples_ms/0", -1},
+                                                 {"/cases/0/passes/0/ci95_ms", {1}},
+                                                 {"/cases/0/generate/gap", 1.5},
+                                                 {"/cases/0/accuracy/smape/value", 201},
+                                                 {"/cases/0/accuracy/rmse/value", -0.1},
+                                                 {"/cases/0/accuracy/pixels", 0},
+                                                 {"/cases/0/seeds/0/smape", "12"},
+                                                 {"/cases/0/stopping/reason", "bored"},
+                                                 {"/cases/0/images/indirect", "/absolute.exr"}};
+  for (const auto& [pointer, value] : faults) {
+    EXPECT_NE(first_violation([&](Json& j) { at(j, pointer) = value; }), "") << pointer << " = " << value;
+  }
+}
+
+TEST(ReportSchema, AMetricIsAValueOrAReason) {
+  EXPECT_EQ(first_violation([](Json& j) {
+              Json& bias = j["cases"][0]["accuracy"]["bias"];
+              bias.erase("value");
+              bias.erase("ci95");
+              bias["undefined"] = "the reference is black";
+            }),
+            "");
+  EXPECT_NE(
+      first_violation([](Json& j) { j["cases"][0]["accuracy"]["bias"]["undefined"] = "and yet a value"; }),
+      "");
+}

@@ -1,0 +1,148 @@
+#include "report/report.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "base/file.h"
+#include "report/synthetic_report.h"
+
+namespace fs = std::filesystem;
+using namespace vsglbench;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+class ReportFile : public testing::Test {
+ protected:
+  fs::path dir_ = fs::temp_directory_path() / ("vsglbench_report_test_" + std::to_string(::getpid()));
+  fs::path path_ = dir_ / "report.json";
+  void TearDown() override { fs::remove_all(dir_); }
+};
+
+std::string message_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+    return e.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_F(ReportFile, ReadsBackEveryField) {
+  const Report report = synthetic_report();
+  write_report(path_, report);
+  const Report read = read_report(path_);
+  EXPECT_EQ(to_json(read).dump(), to_json(report).dump());
+  EXPECT_EQ(read.cases[0].accuracy->smape.value, report.cases[0].accuracy->smape.value);
+  EXPECT_EQ(read.cases[0].passes[3].ms.samples, report.cases[0].passes[3].ms.samples);
+  EXPECT_EQ(read.cases[0].seeds[5].errors.pixels, 1000u);
+  EXPECT_EQ(read.cases[1].health->first_bad->pixel, glm::uvec2(7, 9));
+  EXPECT_EQ(read.cases[2].status, Status::skipped);
+}
+
+TEST_F(ReportFile, NumbersThatAreNotFiniteAreNamedAndNothingIsWritten) {
+  write_report(path_, synthetic_report());
+  const std::string before = read_text(path_);
+  Report report = synthetic_report();
+  report.cases[0].passes[1].ms.samples[2] = kNaN;
+  EXPECT_NE(message_of([&] { write_report(path_, report); }).find("'cases/0/passes/1/samples_ms/2' is nan"),
+            std::string::npos);
+  report = synthetic_report();
+  report.cases[0].accuracy->bias.value = std::numeric_limits<double>::infinity();
+  EXPECT_NE(message_of([&] { write_report(path_, report); }).find("'cases/0/accuracy/bias/value' is inf"),
+            std::string::npos);
+  report = synthetic_report();
+  report.config["limit"] = kNaN;  // in the free-form part too
+  EXPECT_NE(message_of([&] { write_report(path_, report); }).find("'config/limit'"), std::string::npos);
+  EXPECT_EQ(read_text(path_), before);
+}
+
+TEST_F(ReportFile, AReportThatDisobeysTheSchemaIsNotWritten) {
+  Report report = synthetic_report();
+  report.cases[0].accuracy.reset();
+  EXPECT_NE(message_of([&] { write_report(path_, report); }).find("lacks 'accuracy'"), std::string::npos);
+  report = synthetic_report();
+  report.cases[1].error->message = "\xff\xfe";  // not UTF-8
+  EXPECT_NE(message_of([&] { write_report(path_, report); }), "no error");
+  EXPECT_FALSE(fs::exists(path_));
+}
+
+TEST_F(ReportFile, ADamagedFileIsOneClearLine) {
+  write_report(path_, synthetic_report());
+  const std::string whole = read_text(path_);
+  for (size_t length = 0; length + 2 < whole.size(); length += 97) {
+    write_text(path_, whole.substr(0, length));
+    EXPECT_NE(message_of([&] { read_report(path_); }).find("report.json:"), std::string::npos) << length;
+  }
+  std::string broken = whole;
+  broken.replace(broken.find("\"failed\""), 8, "\"fialed\"");
+  write_text(path_, broken);
+  EXPECT_NE(message_of([&] { read_report(path_); }).find("did you mean 'failed'?"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_report(dir_ / "absent.json"); }), "no error");
+}
+
+TEST_F(ReportFile, KeepsListsOfSamplesOnOneLine) {
+  write_report(path_, synthetic_report());
+  EXPECT_NE(read_text(path_).find("\"samples_ms\": [2.0,2.5,1.5,2.0]"), std::string::npos);
+  EXPECT_EQ(JsonDocument::load(path_, ErrorKind::config).root().dump(), to_json(synthetic_report()).dump());
+}
+
+TEST(Report, AccuracyIsAMeanOverSeeds) {
+  const std::vector<SeedResult> seeds = {{1, {10, 1, 0.5, 2, 0.1, 9}}, {2, {14, 3, 0.7, 4, -0.1, 9}}};
+  const Accuracy a = accuracy_over_seeds(seeds, {"hash", 16, 12, std::nullopt});
+  EXPECT_DOUBLE_EQ(*a.smape.value, 12);
+  EXPECT_NEAR(a.smape.ci95->hi, 12 + 12.7062 * 2, 1e-3);  // t95(1) · s/√2, s = 2√2
+  EXPECT_NEAR(*a.bias.value, 0, 1e-15);
+  EXPECT_EQ(a.smape.formula, "smape-0-200");
+  EXPECT_EQ(a.mrse.constants.at("epsilon_factor"), 0.01);
+  EXPECT_EQ(a.pixels, 9u);
+  EXPECT_TRUE(a.below_floor);
+  EXPECT_FALSE(accuracy_over_seeds(seeds, {"hash", 16, 11.9, std::nullopt}).below_floor);
+  const Accuracy one = accuracy_over_seeds({seeds[0]}, {});
+  EXPECT_FALSE(one.smape.ci95);
+  EXPECT_THROW(accuracy_over_seeds({}, {}), Error);
+}
+
+TEST(Report, ABlackReferenceLeavesMetricsUndefined) {
+  const Accuracy a = accuracy_over_seeds({{1, {200, 1, std::nullopt, std::nullopt, std::nullopt, 9}}}, {});
+  EXPECT_TRUE(a.smape.value);
+  EXPECT_FALSE(a.bias.value || a.rrmse.value || a.mrse.value);
+  EXPECT_EQ(a.bias.undefined, "the reference is black");
+}
+
+TEST(Report, SumsPassesFrameByFrame) {
+  const std::vector<PassTiming> passes = {{"generate.gbuffer.a", summarize({1, 2, 3})},
+                                          {"generate.rsm.b", summarize({30, 20, 10})},
+                                          {"generated", summarize({100, 100, 100})},
+                                          {"shade", summarize({5, 5, 5})}};
+  EXPECT_EQ(sum_of_passes(passes, {"generate."})->samples, (std::vector<double>{31, 22, 13}));
+  EXPECT_EQ(sum_of_passes(passes, {"generate.rsm.", "shade"})->samples, (std::vector<double>{35, 25, 15}));
+  EXPECT_FALSE(sum_of_passes(passes, {"visibility."}));
+  EXPECT_THROW(sum_of_passes({passes[0], {"generate.c", summarize({1})}}, {"generate."}),
+               std::invalid_argument);
+}
+
+TEST(Report, AFrameIsItsPassesAndTheRest) {
+  const FrameTiming f =
+      frame_timing({10, 12, 11}, {{"a", summarize({4, 5, 4})}, {"b", summarize({5, 5, 6})}});
+  EXPECT_EQ(f.span.median, 11);
+  EXPECT_EQ(f.sum_ms, 10);
+  EXPECT_EQ(f.unattributed_ms, 1);
+  EXPECT_THROW(frame_timing({10}, {{"a", summarize({4, 5})}}), std::invalid_argument);
+}
+
+TEST(Report, TheClockReadsUtc) {
+  const std::string now = utc_now();
+  ASSERT_EQ(now.size(), 20u);
+  EXPECT_EQ(now.back(), 'Z');
+  EXPECT_GE(now.substr(0, 4), "2024");
+}

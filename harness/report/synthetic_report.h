@@ -1,0 +1,77 @@
+// A small report with every field filled, for the tests of this room.
+#pragma once
+
+#include "report/report.h"
+
+namespace vsglbench {
+
+inline PassTiming synthetic_pass(const std::string& name, double ms) {
+  return {name, summarize({ms, 1.25 * ms, 0.75 * ms, ms})};
+}
+
+inline CaseResult synthetic_case(const std::string& id) {
+  CaseResult c;
+  c.id = id;
+  c.scene = "cornell";
+  c.method = "mfis";
+  c.parameters = {{"lights", 256}, {"k", 1.0}, {"visibility", "exact"}};
+  c.effects = {{"normal-maps", "no material has one", false, {}, 0}};
+  c.passes = {synthetic_pass("gbuffer", 2), synthetic_pass("generate.gbuffer.mipmap", 0.5),
+              synthetic_pass("generate.rsm.mipmap", 1), synthetic_pass("generate.rsm.filter", 3),
+              synthetic_pass("shade", 20)};
+  c.frame = frame_timing({27, 33.5, 20.5, 27}, c.passes);
+  GenerateResult g;
+  g.gbuffer_ms = 0.5;
+  g.rsm_ms = 4;
+  g.total = *sum_of_passes(c.passes, {"generate."});
+  g.lights = 256;
+  g.empty = 2;
+  g.overlap = 0.25;
+  g.gap = 0.125;
+  g.shaders = 5;
+  g.dispatches = 7;
+  g.memory_bytes = 1 << 20;
+  c.generate = g;
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const double d = static_cast<double>(seed) - 3.5;
+    c.seeds.push_back({seed, {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000}});
+  }
+  c.accuracy = accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001});
+  c.accuracy->quantiles = ErrorQuantiles{5, 80, 150};
+  c.temporal = Temporal{{0.1, 0.2, 3, {0.1, 0.1, 0.2}}, {0.05, 0.1, 1, {0.05, 0.1}}};
+  c.health = HealthReport{0, 0, 3, std::nullopt};
+  c.stopping = Stopping{StopReason::converged, 4, 2};
+  c.images = {{"indirect", "images/a.exr"}, {"reference", "images/r.exr"}, {"error", "images/e.exr"}};
+  return c;
+}
+
+inline CaseResult synthetic_failure(const std::string& id, Status status, const std::string& message) {
+  CaseResult c;
+  c.id = id;
+  c.scene = "cornell";
+  c.method = "vpl";
+  c.status = status;
+  c.error = CaseError{"case_failed", message};
+  return c;
+}
+
+inline Report synthetic_report() {
+  Report r;
+  r.created = "2024-05-01T12:00:00Z";
+  r.argv = {"vsglbench", "run", "configs/quick.json"};
+  r.git = {std::string(40, 'a'), true};
+  r.device = {"llvmpipe", "cpu", "Mesa", "22.3.6", "1.3.230", 8, 1.0, {{"LP_NATIVE_VECTOR_WIDTH", "512"}}};
+  r.host = {"A CPU", "An OS", 2, 1ull << 33};
+  r.config = {{"name", "quick"}, {"seeds", 8}};
+  r.complete = true;
+  r.scenes = {{"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png"}};
+  r.aa =
+      AaPair{"cornell/mfis", "cornell/mfis#twin", {1.002, {0.99, 1.01}}, noise_floor({1.002, {0.99, 1.01}})};
+  r.cases = {synthetic_case("cornell/mfis"),
+             synthetic_failure("cornell/vpl", Status::failed, "a NaN in pass shade"),
+             synthetic_failure("sponza/vpl", Status::skipped, "sponza.gltf is absent")};
+  r.cases[1].health = HealthReport{2, 1, 0, FirstBad{"shade", {7, 9}}};
+  return r;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,36 @@
+// A whole run: config → scenes → cases → report, saved after every scene, resumable.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "run/case_run.h"
+
+namespace vsglbench {
+
+struct RunOptions {
+  std::filesystem::path config;
+  std::filesystem::path out;     // empty: reports/out/<name of the config>
+  std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
+  std::string only;              // glob over case ids; empty: all
+  std::string device;            // index or part of a name; empty: the first usable
+  bool force = false;            // measure again what an interrupted run had finished
+  bool validation = false;       // with the validation layers; a message fails the run
+  std::vector<std::string> argv;
+};
+
+struct RunOutcome {
+  Report report;
+  WallTime wall;
+  std::filesystem::path report_path;
+  int exit_code = 0;  // 0 all cases ok (skipped ones count as ok), 1 a case failed
+};
+
+// Throws Error for what stops the whole run: config, output folder, device.
+RunOutcome run_config(const RunOptions& options);
+
+// The options' folder, or VSGLBENCH_ASSETS, or empty.
+std::filesystem::path assets_directory(const std::filesystem::path& given);
+
+}  // namespace vsglbench

@@ -1,0 +1,18 @@
+// What must hold of every scene before anyone renders it.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace vsglbench {
+
+// Array sizes agree, indices are in range, batches cover the triangles in order, all numbers are finite and
+// in their ranges, light and camera have unit orthogonal axes, there is at least one triangle. Error(scene).
+void check_scene(const Scene& scene);
+
+// Hash of everything that determines radiance: geometry, materials, texels, light, camera. Not of names,
+// near and far planes, the origin, or warnings.
+std::string scene_hash(const Scene& scene);
+
+}  // namespace vsglbench

@@ -1,0 +1,168 @@
+// Every malformed file is an Error of one line that names the file; nothing crashes.
+#include <unistd.h>
+
+#include <cmath>
+#include <limits>
+
+#include "scene/gltf_fixture.h"
+
+namespace vsglbench {
+namespace {
+
+class GltfBadInput : public GltfFixture {
+ protected:
+  void SetUp() override {
+    GltfFixture::SetUp();
+    add_square();
+  }
+  // The problem after setting the value at a JSON pointer.
+  std::string after(const std::string& pointer, const Json& value) {
+    const Json before = json_;
+    json_[Json::json_pointer(pointer)] = value;
+    std::string text = problem();
+    json_ = before;
+    return text;
+  }
+};
+
+TEST_F(GltfBadInput, MissingFile) {
+  EXPECT_TRUE(contains(problem_of((folder_ / "absent.gltf").string()), "cannot be read"));
+  EXPECT_TRUE(contains(problem_of(folder_.string()), "folder"));
+}
+
+TEST_F(GltfBadInput, TruncatedText) {
+  write_gltf();
+  const std::string text = json_.dump(1);
+  for (size_t length = 0; length + 1 < text.size(); ++length) {
+    write("cut.gltf", text.substr(0, length));
+    EXPECT_TRUE(contains(problem_of((folder_ / "cut.gltf").string()), "not JSON")) << length;
+  }
+}
+
+TEST_F(GltfBadInput, GlbTruncatedAtEveryLength) {
+  const std::string bytes = glb_bytes();
+  for (size_t length = 0; length < bytes.size(); ++length) {
+    write("cut.glb", bytes.substr(0, length));
+    EXPECT_NE(problem_of((folder_ / "cut.glb").string()), "") << length;
+  }
+  write("whole.glb", bytes);
+  EXPECT_EQ(problem_of((folder_ / "whole.glb").string()), "");
+}
+
+// Each byte replaced in turn, by several values: the loader may accept or refuse, but must survive.
+TEST_F(GltfBadInput, GlbWithAnyByteChanged) {
+  const std::string bytes = glb_bytes();
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (const int value : {0x00, 0x7f, 0x39}) {
+      std::string changed = bytes;
+      changed[i] = static_cast<char>(value);
+      write("changed.glb", changed);
+      problem_of((folder_ / "changed.glb").string());
+    }
+  }
+}
+
+TEST_F(GltfBadInput, TruncatedOrMissingBuffer) {
+  const std::string path = write_gltf();
+  write("data.bin", bin_.substr(0, bin_.size() / 2));
+  EXPECT_TRUE(contains(problem_of(path), "data.bin"));
+  std::filesystem::remove(folder_ / "data.bin");
+  EXPECT_TRUE(contains(problem_of(path), "data.bin"));
+}
+
+TEST_F(GltfBadInput, AccessorsOutOfRange) {
+  EXPECT_TRUE(contains(after("/accessors/0/count", 5), "POSITION: 5 elements of 12 bytes"));
+  EXPECT_TRUE(contains(after("/accessors/0/count", 1ull << 62), "leave buffer view"));
+  EXPECT_TRUE(contains(after("/accessors/0/byteOffset", 4), "leave buffer view"));
+  EXPECT_TRUE(contains(after("/accessors/0/byteOffset", ~0ull), "leave buffer view"));
+  EXPECT_TRUE(contains(after("/accessors/0/bufferView", 77), "past the 4"));
+  EXPECT_TRUE(contains(after("/accessors/0/type", "VEC2"), "components"));
+  EXPECT_TRUE(contains(after("/accessors/1/count", 3), "3 elements but 4 positions"));
+  EXPECT_TRUE(contains(after("/accessors/3/componentType", 5126), "unsigned"));
+  EXPECT_TRUE(contains(after("/accessors/0/componentType", 5124), "not allowed"));
+  EXPECT_TRUE(contains(after("/bufferViews/0/byteStride", 4), "byteStride"));
+  EXPECT_TRUE(contains(after("/bufferViews/0/byteLength", 1ull << 40), "leaves its buffer"));
+  EXPECT_TRUE(contains(after("/bufferViews/0/byteOffset", ~0ull - 3), "leaves its buffer"));
+  EXPECT_TRUE(contains(after("/bufferViews/0/buffer", 3), "past the 1"));
+  EXPECT_NE(after("/bufferViews/0/buffer", -1), "");
+}
+
+TEST_F(GltfBadInput, ZeroFilledAccessorIsBounded) {
+  json_["accessors"][0].erase("bufferView");
+  EXPECT_TRUE(contains(after("/accessors/0/count", 1ull << 40), "no buffer view"));
+}
+
+TEST_F(GltfBadInput, ReferencesOutOfRange) {
+  EXPECT_TRUE(contains(after("/meshes/0/primitives/0/attributes/POSITION", 99), "past the"));
+  EXPECT_TRUE(contains(after("/meshes/0/primitives/0/material", 0), "material"));
+  EXPECT_TRUE(contains(after("/nodes/0/mesh", 4), "mesh"));
+  EXPECT_TRUE(contains(after("/scenes/0/nodes", {5}), "node"));
+  EXPECT_TRUE(contains(after("/scenes/0/nodes", {-1}), "node"));
+  EXPECT_TRUE(contains(after("/scene", 2), "default scene"));
+  EXPECT_TRUE(contains(after("/nodes/0/children", {9}), "node"));
+  EXPECT_TRUE(contains(after("/meshes/0/primitives/0/mode", 9), "mode"));
+}
+
+TEST_F(GltfBadInput, IndexPastTheVertices) {
+  primitive()["indices"] = add<uint16_t>({0, 1, 4}, 5123, "SCALAR", 1);
+  EXPECT_TRUE(contains(problem(), "index 2 is 4, past the 4 vertices"));
+  primitive()["indices"] = add<uint16_t>({0, 1, 2, 3}, 5123, "SCALAR", 1);
+  EXPECT_TRUE(contains(problem(), "whole number of triangles"));
+}
+
+TEST_F(GltfBadInput, VerticesThatAreNotFinite) {
+  for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    primitive()["attributes"]["POSITION"] = add_floats({0, 0, 0, 1, bad, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
+    EXPECT_TRUE(contains(problem(), "POSITION: element 1 is not finite"));
+  }
+  primitive()["attributes"]["POSITION"] = add_floats({0, 0, 0, 1e30f, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
+  EXPECT_TRUE(contains(problem(), "metres off"));
+}
+
+TEST_F(GltfBadInput, NodesThatFormNoTree) {
+  json_["nodes"] = Json::parse(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
+  EXPECT_TRUE(contains(problem(), "cycle"));
+  json_["nodes"] = Json::parse(R"([{"mesh": 0, "matrix": [1, 2, 3]}])");
+  EXPECT_TRUE(contains(problem(), "matrix"));
+  json_["nodes"] = Json::parse(R"([{"mesh": 0, "rotation": [0, 0, 0, 0]}])");
+  EXPECT_TRUE(contains(problem(), "rotation"));
+}
+
+TEST_F(GltfBadInput, Textures) {
+  json_["images"] = {{{"uri", "absent.png"}}};
+  json_["textures"] = {{{"source", 0}}};
+  json_["materials"] =
+      Json::parse(R"([{"name": "wood", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+  EXPECT_TRUE(contains(problem(), "wood"));
+  EXPECT_TRUE(contains(problem(), "absent.png"));
+  write("absent.png", "this is no image");
+  EXPECT_TRUE(contains(problem(), "is not an image"));
+  write("absent.png", decode_base64(kPngBase64).substr(0, 60));
+  EXPECT_TRUE(contains(problem(), "is not an image"));
+  EXPECT_TRUE(contains(after("/materials/0/pbrMetallicRoughness/baseColorTexture/index", 3), "past the 1"));
+  EXPECT_TRUE(contains(after("/textures/0/source", 8), "past the 1"));
+  EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 0}}), "is not an image"));
+  EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 50}}), "bufferView"));
+  EXPECT_TRUE(contains(after("/materials/0/alphaMode", "SHINY"), "SHINY"));
+}
+
+TEST_F(GltfBadInput, NoTriangles) {
+  EXPECT_TRUE(contains(after("/scenes/0/nodes", Json::array()), "no triangles"));
+  primitive()["attributes"].erase("POSITION");
+  EXPECT_TRUE(contains(problem(), "no POSITION"));
+}
+
+TEST_F(GltfBadInput, UnknownRequiredExtension) {
+  json_["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  EXPECT_TRUE(contains(problem(), "requires the extension KHR_draco_mesh_compression"));
+}
+
+TEST_F(GltfBadInput, DeepNesting) {
+  const std::string path = write_gltf();
+  std::string deep = R"({"asset": {"version": "2.0"}, "extras": )" + std::string(100000, '[');
+  write("scene.gltf", deep + std::string(100000, ']') + "}");
+  EXPECT_TRUE(contains(problem_of(path), "nested"));
+}
+
+}  // namespace
+}  // namespace vsglbench

@@ -1,0 +1,41 @@
+// scene.json: geometry, materials, one light and one camera a view. Documented in scenes/README.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace vsglbench {
+
+struct SceneOptions {
+  std::filesystem::path scenes_dir;  // holds NAME/scene.json
+  std::filesystem::path assets_dir;  // where downloaded geometry lies; may be empty
+};
+
+// The geometry of a scene isn't on this machine: says which file, and where to get it.
+class AssetMissing : public Error {
+ public:
+  explicit AssetMissing(const std::string& message) : Error(ErrorKind::scene, message) {}
+};
+
+// `name_or_path`: "sponza", or a scene.json or its folder (anything with a '/' or ending in .json); either
+// may end in ":VIEW". Without one the scene's default view. The scene comes checked (check_scene) and hashed.
+// Throws AssetMissing, or Error(scene) "FILE:LINE: ...".
+Scene load_scene(const std::string& name_or_path, const SceneOptions& options);
+
+// What a list of scenes shows, read without loading geometry.
+struct SceneInfo {
+  std::string name, description, default_view;
+  std::vector<std::string> views;
+  std::filesystem::path asset;  // the geometry file; empty for a scene that is built by code
+  bool asset_present = true;
+  std::string get_it;  // where to get the asset
+};
+
+// All scenes of scenes_dir, by name. Throws Error(scene) for one that can't be read.
+std::vector<SceneInfo> list_scenes(const SceneOptions& options);
+
+}  // namespace vsglbench
