@@ -1,7 +1,7 @@
 // Direct light, for its own image only: exact BRDF, the RSM's positions as a shadow map.
 #version 460
 #include "types.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 layout(set = 0, binding = 5) uniform sampler2D rsm_position_map;
@@ -10,19 +10,20 @@ layout(set = 0, binding = 7, scalar) uniform Lamp { Emitter lamp; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {
-  uint pixel = gl_GlobalInvocationID.x;
-  if (pixel >= emitter.width * emitter.height) return;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  if (at.x >= emitter.width || at.y >= emitter.height) return;
+  uint pixel = at.y * emitter.width + at.x;
   direct[pixel] = vec4(0.0);
   Texel t;
-  if (!load_texel(emitter, ivec2(pixel % emitter.width, pixel / emitter.width), t)) return;
+  if (!load_texel(emitter, ivec2(at), t)) return;
   vec3 d = t.surface.position - lamp.position;
   float z = dot(d, lamp.forward);
   float along = lamp.perspective != 0u ? z : 1.0;
   vec2 plane = vec2(dot(d, lamp.right), dot(d, lamp.up)) / (along * lamp.extent);
   if ((lamp.perspective != 0u && z <= 0.0) || any(greaterThan(abs(plane), vec2(1.0)))) return;
-  ivec2 at = clamp(ivec2((vec2(0.5) + vec2(0.5, -0.5) * plane) * vec2(lamp.width, lamp.height)), ivec2(0),
+  ivec2 seen = clamp(ivec2((vec2(0.5) + vec2(0.5, -0.5) * plane) * vec2(lamp.width, lamp.height)), ivec2(0),
                    ivec2(lamp.width - 1u, lamp.height - 1u));
-  vec4 lit = texelFetch(rsm_position_map, at, 0);
+  vec4 lit = texelFetch(rsm_position_map, seen, 0);
   vec3 to_light = lamp.perspective != 0u ? -d * inversesqrt(dot(d, d)) : -lamp.forward;
   float irradiance_scale = lamp.perspective != 0u ? 1.0 / dot(d, d) : 1.0;
   // Within two texels' depth of what the light sees there.

@@ -170,7 +170,7 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
   r.pass("importance.gbuffer", [&] {
     const Buffer& pdf = pdf_buffer(Half::gbuffer);
     r.dispatch(stage_.kernels.get(kernel_path("pdf_gbuffer.comp")), {*g[0], *g[1], *g[2], *g[3], *g[4], pdf}, camera_,
-               groups_for(uint64_t(camera_.width) * camera_.height, 64));
+               groups_for(camera_.width, 8), groups_for(camera_.height, 8));
     build_pdf_mips(r, pdf, camera_.width, camera_.height);
   });
   // 2. Lights on the G-buffer, by the method under test.
@@ -185,8 +185,8 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
       uint32_t count;
     } push{light_, importance_count_};
     r.dispatch(stage_.kernels.get(kernel_path("importance.comp"), light_define(method_->kind())),
-               {*m[0], *m[1], *m[2], *m[3], *m[4], lights, pdf}, push,
-               groups_for(uint64_t(light_.width) * light_.height, 64));
+               {*m[0], *m[1], *m[2], *m[3], *m[4], lights, pdf}, push, groups_for(light_.width, 8),
+               groups_for(light_.height, 8));
     build_pdf_mips(r, pdf, light_.width, light_.height);
   });
 }
@@ -205,7 +205,7 @@ void Frame::shade(Recorder& r) {
   ShaderDefines defines = light_define(method_->kind());
   defines["VISIBILITY"] = std::to_string(static_cast<int>(parameters_.visibility));
   const Kernel& kernel = stage_.kernels.get(kernel_path("shade.comp"), defines);
-  const uint32_t words = groups_for(pixels, 32);
+  const uint32_t words = groups_for(pixels, 32), gx = groups_for(camera_.width, 8), gy = groups_for(camera_.height, 8);
   const auto g = gbuffer_->pointers();
   struct {
     gpu::Emitter emitter;
@@ -214,15 +214,14 @@ void Frame::shade(Recorder& r) {
 
   if (parameters_.visibility == Visibility::none) {
     r.pass("shade", [&] {
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect}, push, groups_for(pixels, 64));
+      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect}, push, gx, gy);
     });
     return;
   }
   if (parameters_.visibility == Visibility::ism) {
     const auto maps = stage_.shadow_maps(parameters_.ism).build(r, lights, method_->kind(), light_count_);
     r.pass("shade", [&] {
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *maps.depth, *maps.frames}, push,
-                 groups_for(pixels, 64));
+      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *maps.depth, *maps.frames}, push, gx, gy);
     });
     return;
   }
@@ -242,8 +241,7 @@ void Frame::shade(Recorder& r) {
       push.first = static_cast<uint32_t>(i) * most;
       push.count = std::min(most, light_count_ - push.first);
       push.accumulate = i > 0;
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *chunks[i]}, push,
-                 groups_for(pixels, 64));
+      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *chunks[i]}, push, gx, gy);
       r.barrier();
     }
   });
@@ -316,7 +314,7 @@ Image Frame::render_direct() {
   recorder_.pass("direct", [&] {
     recorder_.dispatch(stage_.kernels.get(kernel_path("direct.comp")),
                        {*g[0], *g[1], *g[2], *g[3], *g[4], rsm_->maps[0], out, light_view_buffer_}, camera_,
-                       groups_for(pixels, 64));
+                       groups_for(camera_.width, 8), groups_for(camera_.height, 8));
   });
   recorder_.submit_and_wait();
   Image image(camera_.width, camera_.height);

@@ -2,7 +2,7 @@
 // towards the primary light; p ∝ luminance of (Φ × that) [VSGL14 §3; Ritschel 2011].
 #version 460
 #include "types.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "light_kind.glsl"
@@ -14,10 +14,11 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= emitter.width * emitter.height) return;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  if (at.x >= emitter.width || at.y >= emitter.height) return;
+  uint i = at.y * emitter.width + at.x;
   Texel t;
-  bool surface = load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t);
+  bool surface = load_texel(emitter, ivec2(at), t);
   vec3 sum = vec3(0.0);
   Shader shader = make_shader(t.surface);
   for (uint k = 0u; k < count; ++k) sum += shade_light(shader, lights[k]);

@@ -4,14 +4,14 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Fine { uint fine[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Coarse { uint coarse[]; };
-layout(push_constant, scalar) uniform Push { uint count, size; };  // size: of the coarse level
+layout(push_constant, scalar) uniform Push { uint size; };  // size: of the coarse level
 #define ISM_WRITE
 #include "ism.glsl"
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= count * size * size) return;
-  uint x = i % size, y = (i / size) % size, k = i / (size * size);
+  uint texel = gl_GlobalInvocationID.x, k = gl_GlobalInvocationID.y;  // one row of groups a light
+  if (texel >= size * size) return;
+  uint x = texel % size, y = texel / size, i = k * size * size + texel;
   float sum = 0.0, n = 0.0, nearest = 3e38;
   for (uint c = 0u; c < 4u; ++c) {
     uint bits = fine[(k * 2u * size + 2u * y + (c >> 1u)) * 2u * size + 2u * x + (c & 1u)];

@@ -1,16 +1,17 @@
 // The eye's importance on the G-buffer: reflectance [MFIS16 §5], 0 where there is no surface.
 #version 460
 #include "types.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 layout(set = 0, binding = 5, std430) writeonly buffer Pdf { float pdf[]; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= emitter.width * emitter.height) return;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  if (at.x >= emitter.width || at.y >= emitter.height) return;
+  uint i = at.y * emitter.width + at.x;
   Texel t;
-  bool surface = load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t);
+  bool surface = load_texel(emitter, ivec2(at), t);
   pdf[i] = surface ? luminance(t.surface.diffuse + specular_reflectance(t.surface)) : 0.0;
 }

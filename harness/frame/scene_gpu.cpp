@@ -124,7 +124,8 @@ void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
         return draw.textures[slot] < 0 ? white_ : textures_[draw.textures[slot]];
       };
       const Binding bindings[] = {texture(0), texture(1), texture(2), viewer, face_normals_};
-      pipeline_.layout().push(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bindings, "gbuffer.frag");
+      pipeline_.layout().bind(commands, recorder.descriptors(), VK_PIPELINE_BIND_POINT_GRAPHICS, bindings,
+                              "gbuffer.frag");
       gpu::DrawPush push = draw.push;
       push.view_projection = view_projection;
       pipeline_.layout().push_constants(commands, &push, sizeof push);

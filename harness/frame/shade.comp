@@ -2,7 +2,7 @@
 // VISIBILITY 0: none; 1: bit matrix; 2: imperfect shadow maps.
 #version 460
 #include "types.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "light_kind.glsl"
@@ -32,10 +32,11 @@ float visible(uint k, uint pixel, vec3 position) { return 1.0; }
 #endif
 
 void main() {
-  uint pixel = gl_GlobalInvocationID.x;
-  if (pixel >= emitter.width * emitter.height) return;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  if (at.x >= emitter.width || at.y >= emitter.height) return;
+  uint pixel = at.y * emitter.width + at.x;
   Texel t;
-  bool surface = load_texel(emitter, ivec2(pixel % emitter.width, pixel / emitter.width), t);
+  bool surface = load_texel(emitter, ivec2(at), t);
   vec3 sum = accumulate != 0u ? indirect[pixel].rgb : vec3(0.0);
   Shader shader = make_shader(t.surface);
   for (uint k = first; k < first + count; ++k) {

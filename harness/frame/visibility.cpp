@@ -86,22 +86,17 @@ void ImperfectShadowMaps::fill_holes(Recorder& recorder, uint32_t count) {
   const auto folder = data_root() / "harness" / "frame";
   const Kernel& pull = kernels_.get(folder / "ism_pull.comp");
   const Kernel& push_kernel = kernels_.get(folder / "ism_push.comp");
-  struct Push {
-    uint32_t count, size;
-  };
   // Down to 4×4: a wider hole is open space.
   constexpr uint32_t coarsest = 4;
   recorder.pass("visibility.ism.pull", [&] {
     for (uint32_t size = parameters_.size / 2; size >= coarsest; size /= 2) {
-      recorder.dispatch(pull, {level(2 * size, count), level(size, count)}, Push{count, size},
-                        groups_for(uint64_t(count) * size * size, 64));
+      recorder.dispatch(pull, {level(2 * size, count), level(size, count)}, size, groups_for(size * size, 64), count);
       recorder.barrier();
     }
   });
   recorder.pass("visibility.ism.push", [&] {
     for (uint32_t size = 2 * coarsest; size <= parameters_.size; size *= 2) {
-      recorder.dispatch(push_kernel, {level(size / 2, count), level(size, count)}, Push{count, size},
-                        groups_for(uint64_t(count) * size * size, 64));
+      recorder.dispatch(push_kernel, {level(size / 2, count), level(size, count)}, size, groups_for(size * size, 64), count);
       recorder.barrier();
     }
   });

@@ -58,11 +58,6 @@ VkInstance make_instance(bool validation) {
   return instance;
 }
 
-template <class Function>
-void load(VkDevice device, const char* name, Function* function) {
-  *function = reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
-}
-
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -162,9 +157,7 @@ void Device::create_device() {
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.features,
                                   .queueCreateInfoCount = 1,
-                                  .pQueueCreateInfos = &queue,
-                                  .enabledExtensionCount = static_cast<uint32_t>(needed_extensions().size()),
-                                  .ppEnabledExtensionNames = needed_extensions().data()};
+                                  .pQueueCreateInfos = &queue};
   VK_CHECK(vkCreateDevice(physical_, &create, nullptr, &device_));
   vkGetDeviceQueue(device_, family_, 0, &queue_);
   const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -180,7 +173,6 @@ void Device::create_device() {
                                     .addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                     .maxLod = 0};
   VK_CHECK(vkCreateSampler(device_, &sampler, nullptr, &sampler_));
-  load(device_, "vkCmdPushDescriptorSetKHR", &push_descriptor_set);
   const auto instance_function = [&](const char* name) { return vkGetInstanceProcAddr(instance_, name); };
   begin_label = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(instance_function("vkCmdBeginDebugUtilsLabelEXT"));
   end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(instance_function("vkCmdEndDebugUtilsLabelEXT"));

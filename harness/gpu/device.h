@@ -61,7 +61,6 @@ class Device {
   uint64_t allocated_bytes() const { return allocated_; }
   void count_memory(int64_t bytes) { allocated_ += static_cast<uint64_t>(bytes); }
 
-  PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 

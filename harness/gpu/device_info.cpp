@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "gpu/check.h"
 
@@ -26,11 +25,6 @@ std::string version_text(uint32_t v) {
 }
 
 }  // namespace
-
-const std::vector<const char*>& needed_extensions() {
-  static const std::vector<const char*> names = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
-  return names;
-}
 
 NeededFeatures::NeededFeatures() {
   features.pNext = &vulkan11;
@@ -78,15 +72,6 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
   vkGetPhysicalDeviceFeatures2(device, &has.features);
   for (const auto& entry : has.entries()) {
     if (!*entry.flag) missing.push_back(entry.name);
-  }
-  uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-  for (const char* name : needed_extensions()) {
-    const bool found = std::any_of(extensions.begin(), extensions.end(),
-                                   [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
-    if (!found) missing.push_back(name);
   }
   uint32_t bits = 0;
   if (find_queue_family(device, &bits) < 0) missing.push_back("a queue with graphics and compute");

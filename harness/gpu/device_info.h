@@ -10,8 +10,6 @@
 
 namespace vsglbench {
 
-const std::vector<const char*>& needed_extensions();
-
 // The chain of feature structs, to query or to enable; entries() names the members that are needed.
 struct NeededFeatures {
   struct Entry {

@@ -66,12 +66,52 @@ std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spir
   return types;
 }
 
+DescriptorArena::~DescriptorArena() {
+  for (const VkDescriptorPool pool : pools_) vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
+}
+
+void DescriptorArena::add_pool() {
+  constexpr uint32_t sets = 512;
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * sets},
+                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 6 * sets},
+                                        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sets}};
+  const VkDescriptorPoolCreateInfo create{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                          .maxSets = sets,
+                                          .poolSizeCount = 3,
+                                          .pPoolSizes = sizes};
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  VK_CHECK(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &pool));
+  pools_.push_back(pool);
+}
+
+VkDescriptorSet DescriptorArena::allocate(VkDescriptorSetLayout layout) {
+  for (;; ++current_) {
+    const bool fresh = current_ == pools_.size();
+    if (fresh) add_pool();
+    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                           .descriptorPool = pools_[current_],
+                                           .descriptorSetCount = 1,
+                                           .pSetLayouts = &layout};
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    const VkResult result = vkAllocateDescriptorSets(device_.handle(), &info, &set);
+    if (result == VK_SUCCESS) return set;
+    // A full pool: go on with the next. One that is fresh must have room.
+    if (fresh || (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)) {
+      check_vulkan(result, "vkAllocateDescriptorSets", __FILE__, __LINE__);
+    }
+  }
+}
+
+void DescriptorArena::reset() {
+  for (const VkDescriptorPool pool : pools_) VK_CHECK(vkResetDescriptorPool(device_.handle(), pool, 0));
+  current_ = 0;
+}
+
 BindingLayout::BindingLayout(Device& device, std::vector<VkDescriptorType> types, VkShaderStageFlags stages)
     : device_(&device), types_(std::move(types)), stages_(stages) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (uint32_t i = 0; i < types_.size(); ++i) bindings.push_back({i, types_[i], 1, stages, nullptr});
   const VkDescriptorSetLayoutCreateInfo set{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                            .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
                                             .bindingCount = static_cast<uint32_t>(bindings.size()),
                                             .pBindings = bindings.data()};
   VK_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_));
@@ -98,11 +138,12 @@ void BindingLayout::swap(BindingLayout& other) noexcept {
   std::swap(layout_, other.layout_);
 }
 
-void BindingLayout::push(VkCommandBuffer commands, VkPipelineBindPoint point, std::span<const Binding> bindings,
-                         const std::string& name) const {
+void BindingLayout::bind(VkCommandBuffer commands, DescriptorArena& arena, VkPipelineBindPoint point,
+                         std::span<const Binding> bindings, const std::string& name) const {
   if (bindings.size() != types_.size()) {
     throw std::logic_error(fmt::format("{} has {} bindings, {} given", name, types_.size(), bindings.size()));
   }
+  const VkDescriptorSet set = arena.allocate(set_);
   std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
   std::vector<VkDescriptorImageInfo> images(bindings.size());
   std::vector<VkWriteDescriptorSet> writes;
@@ -117,13 +158,15 @@ void BindingLayout::push(VkCommandBuffer commands, VkPipelineBindPoint point, st
       buffers[i] = {bindings[i].buffer->handle(), 0, VK_WHOLE_SIZE};
     }
     writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                      .dstSet = set,
                       .dstBinding = i,
                       .descriptorCount = 1,
                       .descriptorType = types_[i],
                       .pImageInfo = &images[i],
                       .pBufferInfo = &buffers[i]});
   }
-  device_->push_descriptor_set(commands, point, layout_, 0, static_cast<uint32_t>(writes.size()), writes.data());
+  vkUpdateDescriptorSets(device_->handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+  vkCmdBindDescriptorSets(commands, point, layout_, 0, 1, &set, 0, nullptr);
 }
 
 void BindingLayout::push_constants(VkCommandBuffer commands, const void* data, size_t bytes) const {
@@ -168,11 +211,11 @@ void Kernel::swap(Kernel& other) noexcept {
   std::swap(pipeline_, other.pipeline_);
 }
 
-void Kernel::dispatch(VkCommandBuffer commands, std::span<const Binding> bindings, const void* push,
-                      size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
+                      const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
-  layout_.push(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);
+  layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);
   layout_.push_constants(commands, push, push_bytes);
   vkCmdDispatch(commands, groups_x, groups_y, groups_z);
 }

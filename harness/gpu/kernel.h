@@ -25,7 +25,24 @@ struct Binding {
 // another set, a gap, or a resource that is neither a storage buffer, uniform buffer nor sampled image.
 std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spirv, const std::string& name);
 
-// Descriptor-set and pipeline layout for set 0 with push descriptors and 128 bytes of push constants.
+// Descriptor sets that live until reset().
+class DescriptorArena {
+ public:
+  explicit DescriptorArena(Device& device) : device_(device) {}
+  ~DescriptorArena();
+  DescriptorArena(const DescriptorArena&) = delete;
+  DescriptorArena& operator=(const DescriptorArena&) = delete;
+  VkDescriptorSet allocate(VkDescriptorSetLayout layout);
+  void reset();  // when no command buffer in flight uses a set
+
+ private:
+  void add_pool();
+  Device& device_;
+  std::vector<VkDescriptorPool> pools_;
+  size_t current_ = 0;
+};
+
+// Descriptor-set and pipeline layout for set 0 and 128 bytes of push constants.
 class BindingLayout {
  public:
   BindingLayout() = default;
@@ -38,8 +55,8 @@ class BindingLayout {
   }
   VkPipelineLayout pipeline_layout() const { return layout_; }
   // Throws std::logic_error when count or kind of `bindings` don't fit.
-  void push(VkCommandBuffer commands, VkPipelineBindPoint point, std::span<const Binding> bindings,
-            const std::string& name) const;
+  void bind(VkCommandBuffer commands, DescriptorArena& arena, VkPipelineBindPoint point,
+            std::span<const Binding> bindings, const std::string& name) const;
   void push_constants(VkCommandBuffer commands, const void* data, size_t bytes) const;
 
  private:
@@ -67,8 +84,8 @@ class Kernel {
 
   const std::string& name() const { return name_; }
   // Binds and dispatches groups; a group count of zero records nothing.
-  void dispatch(VkCommandBuffer commands, std::span<const Binding> bindings, const void* push, size_t push_bytes,
-                uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1) const;
+  void dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
+                const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1) const;
 
  private:
   void swap(Kernel& other) noexcept;

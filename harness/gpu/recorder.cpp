@@ -5,7 +5,7 @@
 
 namespace vsglbench {
 
-Recorder::Recorder(Device& device) : device_(device) {
+Recorder::Recorder(Device& device) : device_(device), descriptors_(device) {
   const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                              .commandPool = device.command_pool(),
                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
@@ -28,6 +28,7 @@ Recorder::~Recorder() {
 void Recorder::begin() {
   names_.clear();
   dispatches_ = 0;
+  descriptors_.reset();
   vkResetQueryPool(device_.handle(), queries_, 0, 2 * kMaxPasses);
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -56,7 +57,7 @@ void Recorder::pass(const std::string& name, const std::function<void()>& record
 
 void Recorder::dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const void* push,
                         size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
-  kernel.dispatch(commands_, {bindings.begin(), bindings.size()}, push, push_bytes, groups_x, groups_y, groups_z);
+  kernel.dispatch(commands_, descriptors_, {bindings.begin(), bindings.size()}, push, push_bytes, groups_x, groups_y, groups_z);
   if (groups_x && groups_y && groups_z) ++dispatches_;
 }
 

@@ -33,6 +33,7 @@ class Recorder {
 
   Device& device() { return device_; }
   VkCommandBuffer commands() const { return commands_; }
+  DescriptorArena& descriptors() { return descriptors_; }
 
   void begin();
   // Everything `record` records belongs to pass `name`. Passes don't nest.
@@ -58,6 +59,7 @@ class Recorder {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkQueryPool queries_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;
+  DescriptorArena descriptors_;
   std::vector<std::string> names_;
   unsigned dispatches_ = 0;
 };

@@ -1,7 +1,7 @@
 // Every texel a light: the answer without clustering. EXACT 1: VPLs with exact BRDFs; 0: each texel's SG lobes.
 #version 460
 #include "types.h"
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "vpl_light.glsl"
@@ -13,10 +13,11 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vsgl lights[]; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= emitter.width * emitter.height) return;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  if (at.x >= emitter.width || at.y >= emitter.height) return;
+  uint i = at.y * emitter.width + at.x;
   Texel t;
-  bool surface = load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t);
+  bool surface = load_texel(emitter, ivec2(at), t);
 #if EXACT
   lights[i] = make_vpl(t, surface ? 1.0 : 0.0);
 #else

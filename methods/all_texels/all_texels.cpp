@@ -16,7 +16,8 @@ class AllTexels : public Method {
     steps.pass("convert", [&] {
       const auto& maps = field.maps;
       steps.recorder().dispatch(convert_, {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *target.buffer},
-                                field.emitter, groups_for(target.count, 64));
+                                field.emitter, groups_for(field.emitter.width, 8),
+                                groups_for(field.emitter.height, 8));
     });
   }
 

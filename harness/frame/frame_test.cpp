@@ -1,0 +1,202 @@
+// Whole frames: energy, repeatability, odd sizes, and silence of the validation layers.
+#include "frame/frame.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "scene/scene_file.h"
+
+using namespace vsglbench;
+
+namespace {
+
+Scene load(const std::string& name) { return load_scene(name, {data_root() / "scenes", {}}); }
+
+Device& device() {
+  static Device d;
+  return d;
+}
+
+// All pixels see all lights.
+std::vector<uint32_t> all_visible(size_t lights, uint64_t pixels) {
+  return std::vector<uint32_t>(lights * groups_for(pixels, 32), ~0u);
+}
+
+struct Session {
+  explicit Session(const Scene& s, Device& d = device()) : kernels(d), stage(d, kernels, s) {}
+  std::unique_ptr<Frame> frame(const std::string& method, FrameParameters p, const Json& own = Json::object()) {
+    const MethodInfo& info = find_method(method);
+    const uint64_t pixels = uint64_t(p.width) * p.height;
+    return std::make_unique<Frame>(stage, info, resolve_parameters(info, own), p, [pixels](const auto& lights) {
+      return all_visible(lights.size(), pixels);
+    });
+  }
+  KernelLibrary kernels;
+  Stage stage;
+};
+
+FrameParameters small(Visibility visibility = Visibility::none) {
+  return {.width = 64, .height = 36, .rsm = 64, .lights = 64, .importance_lights = 64, .visibility = visibility};
+}
+
+double flux_ratio(const Scene& scene) {
+  Session session(scene);
+  FrameParameters p = small();
+  p.width = p.height = 8;
+  p.rsm = 256;
+  auto frame = session.frame("all-texels", p);
+  frame->render(0);
+  glm::dvec3 sum(0);
+  for (const auto& light : frame->vpls()) sum += glm::dvec3(light.flux);
+  return sum.x / frustum_flux(scene.light).x;
+}
+
+}  // namespace
+
+// Σ texel flux = the light's flux inside its frustum, where every texel sees a surface [light-transport §1].
+TEST(Frame, TexelFluxAddsUpToTheLights) {
+  Scene spot = load("cornell");
+  spot.light.fov = 0.8f;  // narrow enough that no ray leaves through the open front
+  EXPECT_NEAR(flux_ratio(spot), 1, 1e-3);
+  Scene sun = load("cornell");
+  sun.light.type = Light::Type::directional;
+  sun.light.half_extent = {0.3f, 0.2f};
+  EXPECT_NEAR(flux_ratio(sun), 1, 1e-3);
+}
+
+TEST(Frame, TheSameSeedGivesTheSameBits) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  for (const char* method : {"vpl", "fis", "mfis"}) {
+    auto frame = session.frame(method, small());
+    frame->render(3);
+    const Image a = frame->indirect();
+    frame->render(4);
+    const Image other = frame->indirect();
+    frame->render(3);
+    const Image b = frame->indirect();
+    EXPECT_TRUE(a.pixels == b.pixels) << method;
+    EXPECT_FALSE(a.pixels == other.pixels) << method << ": the seed changes nothing";
+  }
+}
+
+TEST(Frame, NamesItsPassesInOrder) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  std::vector<std::string> names;
+  for (const auto& pass : session.frame("mfis", small(Visibility::ism))->render(0).passes) names.push_back(pass.name);
+  const std::vector<std::string> expected = {"gbuffer",
+                                             "rsm",
+                                             "importance.gbuffer",
+                                             "generate.gbuffer.resolve",
+                                             "generate.gbuffer.mipmap",
+                                             "generate.gbuffer.sample",
+                                             "importance.rsm",
+                                             "generate.rsm.resolve",
+                                             "generate.rsm.mipmap",
+                                             "generate.rsm.sample",
+                                             "visibility.ism.splat",
+                                             "visibility.ism.pull",
+                                             "visibility.ism.push",
+                                             "shade"};
+  EXPECT_EQ(names, expected);
+}
+
+// A pass's time covers its work: on lavapipe a timestamp without a barrier of its own misses it.
+TEST(Frame, PassTimesAddUpToTheSpan) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  FrameParameters p = small();
+  p.width = 256;
+  p.height = 144;
+  auto frame = session.frame("mfis", p);
+  frame->render(0);
+  const FrameTimes times = frame->render(0);
+  EXPECT_GT(times.sum_ms, 0.9 * times.span_ms);
+  EXPECT_LE(times.sum_ms, 1.0001 * times.span_ms);
+  const auto shade = std::find_if(times.passes.begin(), times.passes.end(), [](const auto& t) { return t.name == "shade"; });
+  EXPECT_GT(shade->ms, 0.2 * times.span_ms) << "36,864 pixels x 64 lights are most of this frame";
+}
+
+TEST(Frame, OddSizesWork) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(65, 33)}) {
+    for (const char* method : {"vpl", "fis", "mfis", "all-texels"}) {
+      FrameParameters p = small(Visibility::exact);
+      p.width = size.x;
+      p.height = size.y;
+      p.rsm = size.x;
+      p.lights = 1;
+      auto frame = session.frame(method, p);
+      frame->render(0);
+      EXPECT_EQ(frame->first_bad_pass(), "") << method << " " << size.x << "x" << size.y;
+    }
+  }
+}
+
+// The bit matrix split over several dispatches gives what one dispatch gives.
+TEST(Frame, ManyLightsAreShadedInChunks) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  FrameParameters p = small(Visibility::none);
+  p.width = 16;
+  p.height = 9;
+  p.rsm = 200;  // 40,000 lights: three dispatches of at most 16,384
+  auto whole = session.frame("all-texels", p);
+  whole->render(0);
+  const Image a = whole->indirect();
+  p.visibility = Visibility::exact;
+  auto chunks = session.frame("all-texels", p);
+  chunks->render(0);
+  const Image b = chunks->indirect();
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    EXPECT_NEAR(luminance(a.pixels[i]), luminance(b.pixels[i]), 1e-5f * luminance(a.pixels[i]) + 1e-12f);
+  }
+}
+
+TEST(Frame, RefusesSizesThatMakeNoSense) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  FrameParameters p = small();
+  p.lights = 0;
+  EXPECT_THROW(session.frame("mfis", p), Error);
+  p.lights = p.rsm * p.rsm + 1;
+  EXPECT_THROW(session.frame("vpl", p), Error);
+  p = small();
+  p.width = 0;
+  EXPECT_THROW(session.frame("fis", p), Error);
+}
+
+// Zero messages, synchronisation checks included, over a frame of every method and visibility. The planted
+// hazard shows that a message would be seen.
+TEST(Validation, IsSilentOverEveryMethod) {
+  Device checked({.validation = true});
+  const Scene scene = load("cornell");
+  {
+    Session session(scene, checked);
+    for (const MethodInfo* method : all_methods()) {
+      for (const Visibility v : {Visibility::none, Visibility::exact, Visibility::ism}) {
+        auto frame = session.frame(method->name, small(v));
+        frame->render(0);
+        frame->render_direct();
+        frame->indirect();
+      }
+    }
+  }
+  for (const auto& message : checked.validation_messages()) ADD_FAILURE() << message;
+
+  const size_t before = checked.validation_messages().size();
+  KernelLibrary kernels(checked);
+  const Kernel& pull = kernels.get(data_root() / "harness" / "frame" / "ism_pull.comp");
+  Buffer a(checked, "a", 4096), b(checked, "b", 4096), c(checked, "c", 4096);
+  Recorder recorder(checked);
+  recorder.begin();
+  recorder.pass("hazard", [&] {
+    recorder.dispatch(pull, {a, b}, uint32_t{4}, 1);
+    recorder.dispatch(pull, {b, c}, uint32_t{4}, 1);  // no barrier between writing b and reading it
+  });
+  recorder.submit_and_wait();
+  EXPECT_GT(checked.validation_messages().size(), before) << "the layers don't report a missing barrier";
+}
