@@ -15,7 +15,8 @@ void log_line(LogLevel level, const std::string& prefix, const std::string& mess
   if (level > current) return;
   // A progress bar may stand on the line: clear it first.
   const char* clear = ::isatty(STDERR_FILENO) ? "\r\x1b[K" : "";
-  fmt::print(stderr, "{}{}{}\n", clear, prefix, message);
+  // Not fmt::print: a stderr that takes nothing more is no reason to stop.
+  std::fputs(fmt::format("{}{}{}\n", clear, prefix, message).c_str(), stderr);
 }
 
 }  // namespace vsglbench

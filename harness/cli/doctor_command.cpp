@@ -15,7 +15,7 @@ namespace {
 
 bool has_layer(const char* name) {
   uint32_t count = 0;
-  vkEnumerateInstanceLayerProperties(&count, nullptr);
+  if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) return false;
   std::vector<VkLayerProperties> layers(count);
   vkEnumerateInstanceLayerProperties(&count, layers.data());
   for (const auto& layer : layers) {
@@ -24,44 +24,81 @@ bool has_layer(const char* name) {
   return false;
 }
 
-// Prints every finding; returns whether the machine can run the benchmark.
-bool examine() {
+void print_host() {
   const HostInfo host = host_info();
   fmt::print("host        {}, {} cores, {:.1f} GiB, {}\n", host.cpu, host.cores,
              static_cast<double>(host.memory_bytes) / (1 << 30), host.os);
+}
+
+void print_device(const DeviceInfo& d) {
+  fmt::print("device {}    {} ({})\n", d.index, d.name, d.type);
+  fmt::print("  driver    {} {}, Vulkan {}\n", d.driver, d.driver_version, d.api);
+  fmt::print("  subgroup  {} lanes; timestamps every {} ns, {} bits; storage buffers up to {} MiB\n",
+             d.subgroup_size, d.timestamp_period_ns, d.timestamp_valid_bits, d.max_storage_range >> 20);
+  for (const auto& missing : d.missing) fmt::print("  missing   {}\n", missing);
+  if (d.missing.empty()) fmt::print("  usable\n");
+}
+
+// Whether one device has all that is needed.
+bool examine_devices() {
   bool usable = false;
-  for (const auto& d : list_devices()) {
-    fmt::print("device {}    {} ({})\n", d.index, d.name, d.type);
-    fmt::print("  driver    {} {}, Vulkan {}\n", d.driver, d.driver_version, d.api);
-    fmt::print("  subgroup  {} lanes; timestamps every {} ns, {} bits; storage buffers up to {} MiB\n", d.subgroup_size,
-               d.timestamp_period_ns, d.timestamp_valid_bits, d.max_storage_range >> 20);
-    for (const auto& missing : d.missing) fmt::print("  missing   {}\n", missing);
-    if (d.missing.empty()) fmt::print("  usable\n");
-    usable = usable || d.missing.empty();
-  }
-  fmt::print("validation  {}\n", has_layer("VK_LAYER_KHRONOS_validation")
-                                     ? "layer found"
-                                     : "layer missing (vulkan-validationlayers); --validate and its tests need it");
-  fmt::print("data        {}\n", data_root().string());
-  for (const char* folder : {"harness/shaders", "methods", "scenes", "configs"}) {
-    if (!std::filesystem::is_directory(data_root() / folder)) {
-      fmt::print("  missing   {}; set VSGLBENCH_ROOT to the source or installed folder\n", folder);
-      usable = false;
+  try {
+    const auto devices = list_devices();
+    for (const auto& d : devices) {
+      print_device(d);
+      usable = usable || d.missing.empty();
     }
+    if (devices.empty())
+      fmt::print("device      none; install a driver (mesa-vulkan-drivers has lavapipe)\n");
+  } catch (const Error& e) {
+    fmt::print("device      none: {}\n", e.what());
   }
-  fmt::print("cache       {}\n", cache_directory().string());
+  fmt::print("validation  {}\n",
+             has_layer("VK_LAYER_KHRONOS_validation")
+                 ? "layer found"
+                 : "layer missing (vulkan-validationlayers); --validate and its tests need it");
   return usable;
+}
+
+// Whether kernels, methods and descriptions are where the program looks for them.
+bool examine_data() {
+  fmt::print("data        {}\n", data_root().string());
+  bool complete = true;
+  for (const char* folder : {"harness/shaders", "harness/frame", "methods", "scenes", "configs"}) {
+    std::error_code ec;
+    if (std::filesystem::is_directory(data_root() / folder, ec)) continue;
+    fmt::print("  missing   {}; set VSGLBENCH_ROOT to the source or installed folder\n", folder);
+    complete = false;
+  }
+  return complete;
+}
+
+void examine_cache() {
+  try {
+    ensure_writable_directory(cache_directory());
+    fmt::print("cache       {}\n", cache_directory().string());
+  } catch (const Error& e) {  // costs time only
+    fmt::print("cache       not writable, so nothing is kept: {}\n", e.what());
+  }
+}
+
+void examine() {
+  print_host();
+  const bool usable = examine_devices();
+  const bool complete = examine_data();
+  examine_cache();
+  std::fflush(stdout);
+  if (!usable) throw fail(ErrorKind::device, "no usable device; what each lacks is listed above");
+  if (!complete) throw fail(ErrorKind::config, "the programme's data are incomplete, as listed above");
+  fmt::print("ready\n");
 }
 
 }  // namespace
 
 void add_doctor_command(CLI::App& app, CommandResult*) {
   CLI::App* command = app.add_subcommand("doctor", "say what this machine has and lacks");
-  command->footer("Example: vsglbench doctor");
-  command->callback([] {
-    if (!examine()) throw fail(ErrorKind::device, "no usable device; what each lacks is listed above");
-    fmt::print("ready\n");
-  });
+  command->footer("Exit codes: 0 ready, 2 data missing, 3 no usable device.\nExample: vsglbench doctor");
+  command->callback(examine);
 }
 
 }  // namespace vsglbench

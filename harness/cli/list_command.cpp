@@ -27,7 +27,9 @@ Json list_methods() {
       }
       parameters.push_back(entry);
     }
-    out.push_back({{"name", method->name}, {"summary", method->summary}, {"source", method->source},
+    out.push_back({{"name", method->name},
+                   {"summary", method->summary},
+                   {"source", method->source},
                    {"parameters", parameters}});
   }
   return out;
@@ -48,14 +50,22 @@ Json list_all_scenes(const std::string& assets) {
 
 Json list_configs() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data_root() / "configs")) {
+  std::error_code ec;
+  for (const auto& entry : std::filesystem::directory_iterator(data_root() / "configs", ec)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   Json out = Json::array();
   for (const auto& file : files) {
-    const Config config = load_config(file);
-    out.push_back({{"name", config.name}, {"summary", config.description}, {"cases", config.cases.size()}});
+    try {
+      const Config config = load_config(file);
+      out.push_back(
+          {{"name", file.stem().string()}, {"summary", config.description}, {"cases", config.cases.size()}});
+    } catch (const Error& e) {  // one that is broken hides no other
+      out.push_back({{"name", file.stem().string()},
+                     {"summary", "broken: " + std::string(e.what())},
+                     {"error", e.what()}});
+    }
   }
   return out;
 }
@@ -88,8 +98,10 @@ void print_text(const Json& rows) {
       for (const auto& v : row["views"]) views += (views.empty() ? "" : ", ") + v.get<std::string>();
       fmt::print("{}views: {}\n", indent, views);
     }
-    if (!row.value("present", true)) fmt::print("{}not on this machine: {}\n", indent, row["get_it"].get<std::string>());
-    if (row.contains("missing") && !row["missing"].empty()) fmt::print("{}lacks {}\n", indent, row["missing"].dump());
+    if (!row.value("present", true))
+      fmt::print("{}not on this machine: {}\n", indent, row["get_it"].get<std::string>());
+    if (row.contains("missing") && !row["missing"].empty())
+      fmt::print("{}lacks {}\n", indent, row["missing"].dump());
   }
 }
 

@@ -1,28 +1,53 @@
 // vsglbench: what each method of making virtual lights costs, and what it is worth.
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/nearest.h"
 #include "cli/command.h"
 
 namespace {
 
-int report(const char* message, int code) {
-  fmt::print(stderr, "vsglbench: {}\n", message);
+using namespace vsglbench;
+
+int report(std::string message, int code) {
+  for (char& c : message) c = c == '\n' ? ' ' : c;
+  std::fputs(("vsglbench: " + message + "\n").c_str(), stderr);  // never throws, unlike fmt::print
   return code;
+}
+
+// What is wrong with the command line, on one line; a misspelt command is met with the nearest.
+int report_usage(const CLI::App& app, const CLI::ParseError& e, const std::vector<std::string>& arguments) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  const std::string first = arguments.size() > 1 ? arguments[1] : "";
+  const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
+  if (!first.empty() && first.front() != '-' && !is_command) {
+    return report(fmt::format("no command '{}'{}", first, suggestion(first, known)), 2);
+  }
+  const std::string help = is_command ? "vsglbench " + first + " --help" : "vsglbench --help";
+  std::string what = e.what();
+  if (what.ends_with('.')) what.pop_back();
+  return report(fmt::format("{}; see {}", what, help), 2);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace vsglbench;
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a write over a size limit then fails with an error, and is reported as one
   const std::vector<std::string> arguments(argv, argv + argc);
   CLI::App app("vsglbench: a benchmark of virtual-light methods for one-bounce indirect illumination");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config or scene, 3 no usable device.\n"
+      "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene or output, 3 no usable "
+      "device.\n"
       "Example: vsglbench run configs/quick.json");
   bool quiet = false, verbose = false;
   app.add_flag("-q,--quiet", quiet, "only warnings, errors and the table");
@@ -37,9 +62,10 @@ int main(int argc, char** argv) {
   add_doctor_command(app, &result);
   try {
     app.parse(argc, argv);
+    if (std::fflush(stdout) != 0) return report(std::string("standard output: ") + std::strerror(errno), 2);
     return result.exit_code;
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return e.get_exit_code() == 0 ? app.exit(e) : report_usage(app, e, arguments);
   } catch (const Error& e) {
     return report(e.what(), e.exit_code());
   } catch (const std::bad_alloc&) {

@@ -6,7 +6,9 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "reference/cache.h"
+#include "run/memory.h"
 #include "run/runner.h"
+#include "run/scene_images.h"
 #include "scene/scene_file.h"
 
 namespace vsglbench {
@@ -23,11 +25,11 @@ void compute(const ReferenceOptions& options) {
   ensure_writable_directory(options.out);
   const Scene scene = load_scene(options.scene, {data_root() / "scenes", assets_directory(options.assets)});
   ReferenceParameters parameters = options.parameters;
+  require_reference_memory(parameters.width, parameters.height);
   parameters.occlusion = !options.no_occlusion;
   bool cached = false;
   const ReferenceResult r = load_or_compute(scene, parameters, &cached);
-  std::string stem = scene.name;
-  for (char& c : stem) c = c == ':' || c == '/' ? '_' : c;
+  const std::string stem = file_name(scene.name);
   write_exr(options.out / (stem + ".reference.exr"), r.mean);
   write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
   fmt::print("{}: {} triangles, {} samples, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE, hash {}\n",
@@ -40,17 +42,22 @@ void compute(const ReferenceOptions& options) {
 
 void add_reference_command(CLI::App& app, CommandResult*) {
   auto options = std::make_shared<ReferenceOptions>();
-  CLI::App* command = app.add_subcommand("reference", "compute a scene's ground truth, or fetch it from the cache");
+  CLI::App* command =
+      app.add_subcommand("reference", "compute a scene's ground truth, or fetch it from the cache");
   command->footer("Example: vsglbench reference cornell --width 480 --height 272 --samples 512 --out .");
   command->add_option("scene", options->scene, "NAME or NAME:VIEW, or a scene.json")->required();
   command->add_option("--out", options->out, "folder of the EXR and PNG")->capture_default_str();
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
-  command->add_option("--width", options->parameters.width)->check(CLI::Range(1, 16384))->capture_default_str();
-  command->add_option("--height", options->parameters.height)->check(CLI::Range(1, 16384))->capture_default_str();
+  command->add_option("--width", options->parameters.width, "pixels")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
+  command->add_option("--height", options->parameters.height, "pixels")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
   command->add_option("--samples", options->parameters.samples, "a pixel and strategy")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
-  command->add_option("--seed", options->parameters.seed)->capture_default_str();
+  command->add_option("--seed", options->parameters.seed, "of the random numbers")->capture_default_str();
   command->add_flag("--no-occlusion", options->no_occlusion, "ignore occluders between the two bounces");
   command->callback([=] { compute(*options); });
 }

@@ -1,36 +1,75 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <csignal>
+
+#include "base/error.h"
 #include "cli/command.h"
 #include "report/table.h"
+#include "run/config.h"
 #include "run/runner.h"
 
 namespace vsglbench {
+namespace {
+
+// Says what becomes of the run, then ends as the signal wants: nothing is half written, and the scenes that
+// were finished are saved already.
+void on_interrupt(int signal) {
+  static const char message[] =
+      "\nvsglbench: interrupted; the same command goes on after the last scene that was finished\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void print_outcome(const RunOutcome& outcome) {
+  fmt::print("{}", terminal_table(outcome.report));
+  const WallTime& w = outcome.report.wall;
+  fmt::print(
+      "{}: {:.1f} s, of which frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
+      "compilation {:.1f}; without the last three {:.2f} x the device time\n",
+      outcome.report_path.string(), w.total_s, w.device_s, w.references_s, w.visibility_s, w.compilation_s,
+      w.overhead_ratio);
+}
+
+void run(const RunOptions& options, CommandResult* result) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  const RunOutcome outcome = run_config(options);
+  print_outcome(outcome);
+  std::fflush(stdout);
+  result->exit_code = outcome.exit_code;
+  const auto& messages = outcome.validation_messages;
+  if (messages.empty()) return;
+  throw fail(ErrorKind::case_failed, "the validation layers gave {} messages, the first: {}", messages.size(),
+             messages.front());
+}
+
+}  // namespace
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result) {
   auto options = std::make_shared<RunOptions>();
   auto config = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("run", "measure the cases of an experiment and write report.json");
   command->footer(
-      "Example: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'\n"
-      "An interrupted run goes on where it stopped when it is started again.");
+      "The report is saved after every scene, whose cases are measured together. An interrupted run goes on "
+      "after the\n"
+      "last scene that was finished when the same command is given again. A complete report in the folder is "
+      "kept as\n"
+      "report.previous.json; images are replaced.\n"
+      "Example: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'");
   command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
   command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)");
   command->add_option("--only", options->only, "run only the cases whose id matches this glob");
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device, "Vulkan device: index or part of its name");
   command->add_flag("--force", options->force, "measure again what an interrupted run had finished");
-  command->add_flag("--validate", options->validation, "with Vulkan's validation layers (slow); a message is an error");
+  command->add_flag("--validate", options->validation,
+                    "with Vulkan's validation layers (slow); a message fails the run");
   command->callback([=] {
     options->config = config_path(*config);
     options->argv = argv;
-    const RunOutcome outcome = run_config(*options);
-    fmt::print("{}", terminal_table(outcome.report));
-    const WallTime& w = outcome.wall;
-    fmt::print("{}: {:.1f} s, of which frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
-               "compilation {:.1f}; the rest is {:.2f} x the device time\n",
-               outcome.report_path.string(), w.total, w.device, w.references, w.visibility, w.compilation,
-               w.overhead_ratio());
-    result->exit_code = outcome.exit_code;
+    run(*options, result);
   });
 }
 

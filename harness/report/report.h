@@ -159,6 +159,16 @@ struct CaseResult {
   std::map<std::string, std::string> images;  // indirect, reference, error, …: paths relative to the report
 };
 
+// Where a run's time went, in seconds, added up over its interruptions.
+struct WallTime {
+  double total_s = 0;
+  double device_s = 0;       // frames, from first to last timestamp, warm-up and A/A twin included
+  double references_s = 0;   // computing or reading ground truth, and building the ray tracer
+  double visibility_s = 0;   // shadow rays of exact visibility
+  double compilation_s = 0;  // opening each case and its first frame, but for the time above: kernels, pipelines
+  double overhead_ratio = 0;  // (total − references − visibility − compilation) / device; 0 without frames
+};
+
 struct Report {
   std::string created;  // UTC, "2024-05-01T12:00:00Z"
   std::vector<std::string> argv;
@@ -167,6 +177,7 @@ struct Report {
   HostInfo host;
   Json config = Json::object();
   bool complete = false;  // every planned case is in it
+  WallTime wall;
   std::vector<SceneReport> scenes;
   std::optional<AaPair> aa;
   std::vector<CaseResult> cases;

@@ -183,6 +183,15 @@ void fields(auto& a, Is<CaseResult> auto& v) {
   a.unless_empty("images", v.images);
 }
 
+void fields(auto& a, Is<WallTime> auto& v) {
+  a("total_s", v.total_s);
+  a("device_s", v.device_s);
+  a("references_s", v.references_s);
+  a("visibility_s", v.visibility_s);
+  a("compilation_s", v.compilation_s);
+  a("overhead_ratio", v.overhead_ratio);
+}
+
 void fields(auto& a, Is<Report> auto& v) {
   a.constant("schema", kReportSchema);
   a("created", v.created);
@@ -194,6 +203,7 @@ void fields(auto& a, Is<Report> auto& v) {
   });
   a("config", v.config);
   a("complete", v.complete);
+  a("wall", v.wall);
   a("scenes", v.scenes);
   a("aa", v.aa);
   a("cases", v.cases);

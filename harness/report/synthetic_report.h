@@ -64,6 +64,7 @@ inline Report synthetic_report() {
   r.host = {"A CPU", "An OS", 2, 1ull << 33};
   r.config = {{"name", "quick"}, {"seeds", 8}};
   r.complete = true;
+  r.wall = {60, 40, 5, 6, 4, 1.125};
   r.scenes = {{"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png"}};
   r.aa =
       AaPair{"cornell/mfis", "cornell/mfis#twin", {1.002, {0.99, 1.01}}, noise_floor({1.002, {0.99, 1.01}})};

@@ -2,16 +2,23 @@
 
 #include <algorithm>
 
+#include "base/log.h"
 #include "measure/stopwatch.h"
 
 namespace vsglbench {
 
-std::string error_kind(const Error& error) {
-  return error.exit_code() == 1 ? "case_failed" : error.exit_code() == 3 ? "device" : "input";
+std::string error_kind(const Error& error, const char* input) {
+  return error.exit_code() == 1 ? "case_failed" : error.exit_code() == 3 ? "device" : input;
 }
 
-CaseRun::CaseRun(const Case& description, const Config& config, const ReferenceResult* reference)
-    : case_(description), config_(config), reference_(reference) {
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall)
+    : case_(description), config_(config), wall_(wall) {
   result_.id = case_.id;
   result_.scene = case_.scene;
   result_.method = case_.method;
@@ -19,92 +26,109 @@ CaseRun::CaseRun(const Case& description, const Config& config, const ReferenceR
 }
 
 void CaseRun::fail_with(const std::string& kind, const std::string& message) {
+  if (failed()) return;
   result_.status = kind == "asset_missing" ? Status::skipped : Status::failed;
   result_.error = CaseError{kind, message};
   frame_.reset();
 }
 
-void CaseRun::fail_with(const Error& error) { fail_with(error_kind(error), error.what()); }
-
-void CaseRun::open(Stage& stage, ExactVisibility exact) {
-  if (failed()) return;
-  try {
-    frame_ = std::make_unique<Frame>(stage, find_method(case_.method), case_.method_parameters, case_.frame,
-                                     std::move(exact));
-  } catch (const Error& e) {
-    fail_with(e);
-  }
+// What a user gives a case beside numbers is a method: a kernel that does not compile, say.
+template <class Action>
+void CaseRun::attempt(const Action& action) {
+  if (finished()) return;
+  guarded("plugin", action, [this](const auto& kind, const auto& message) { fail_with(kind, message); });
 }
 
-bool CaseRun::randomised() const { return find_method(case_.method).takes_light_count; }
+void CaseRun::open(Stage& stage, const ReferenceResult& reference, ExactVisibility exact) {
+  const Stopwatch watch;
+  reference_ = &reference;
+  attempt([&] {
+    frame_ = std::make_unique<Frame>(stage, find_method(case_.method), case_.method_parameters, case_.frame,
+                                     std::move(exact));
+  });
+  wall_->compilation_s += watch.seconds();
+}
+
+// A method that does not draw its lights gives the same image for every seed.
+uint32_t CaseRun::seeds() const { return find_method(case_.method).takes_light_count ? config_.seeds : 1; }
 
 uint64_t CaseRun::frames_left() const {
   if (finished()) return 0;
-  const uint64_t wanted = std::max<uint64_t>(config_.timing.min_samples, randomised() ? config_.seeds : 1);
+  const uint64_t wanted = std::max<uint64_t>(config_.timing.min_samples, seeds());
   return wanted > span_ms_.size() ? wanted - span_ms_.size() : 1;
 }
 
-void CaseRun::warm_up(WallTime* wall) {
-  if (failed()) return;
-  try {
-    const Stopwatch watch;
-    const FrameTimes times = frame_->render(0);
-    wall->device += times.span_ms * 1e-3;
-    ++warmups_;
-  } catch (const Error& e) {
-    fail_with(e);
+// The first frame compiles kernels: what it takes beyond the device's and the ray tracer's time is
+// compilation.
+FrameTimes CaseRun::render(uint32_t seed) {
+  const double visibility_before = wall_->visibility_s;
+  const Stopwatch watch;
+  FrameTimes times = frame_->render(seed);
+  const double device_s = times.span_ms * 1e-3;
+  wall_->device_s += device_s;
+  if (!rendered_) {
+    const double visibility_s = wall_->visibility_s - visibility_before;
+    wall_->compilation_s += std::max(0.0, watch.seconds() - device_s - visibility_s);
   }
+  rendered_ = true;
+  return times;
 }
 
-void CaseRun::step(WallTime* wall) {
-  if (finished()) return;
-  try {
+void CaseRun::warm_up() {
+  attempt([&] {
+    render(0);
+    ++warmups_;
+  });
+}
+
+void CaseRun::step() {
+  attempt([&] {
     const Stopwatch watch;
-    const size_t seeds = randomised() ? config_.seeds : 1;
-    const bool scored = seeds_.size() < seeds;
+    const bool scored = seeds_.size() < seeds();
     const uint32_t seed = scored ? static_cast<uint32_t>(seeds_.size()) : 0;
-    const FrameTimes times = frame_->render(seed);
-    wall->device += times.span_ms * 1e-3;
-    record(times);
-    if (scored) {
-      const Image image = frame_->indirect();
-      if (mask_.empty()) {
-        mask_ = frame_->surface_mask();
-        for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && reference_->mask[i];
-      }
-      if (!check(image)) return;
-      seeds_.push_back({seed, measure_errors(image, reference_->mean, mask_)});
-      if (seed == 0) {
-        describe_lights();
-        result_.accuracy.emplace().quantiles = error_quantiles(image, reference_->mean, mask_);
-        first_image_ = image;
-      }
-    }
+    record(render(seed));
+    if (scored) score(seed);
     elapsed_s_ += watch.seconds();
-    if (seeds_.size() < seeds) return;
+    if (seeds_.size() < seeds()) return;
     reason_ = should_stop(config_.timing, span_ms_, elapsed_s_);
     finished_ = reason_.has_value();
-  } catch (const Error& e) {
-    fail_with(e);
+  });
+}
+
+void CaseRun::score(uint32_t seed) {
+  const Image image = frame_->indirect();
+  if (mask_.empty()) make_mask();
+  check_health_of(image);
+  if (seed == 0) describe_lights();
+  const Errors errors = measure_errors(image, reference_->mean, mask_);
+  if (seed == 0) {
+    quantiles_ = error_quantiles(image, reference_->mean, mask_);
+    first_image_ = image;
   }
+  seeds_.push_back({seed, errors});
+}
+
+void CaseRun::make_mask() {
+  mask_ = frame_->surface_mask();
+  for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && reference_->mask[i];
 }
 
 // One NaN or Inf fails the case and names the pass that first held one; it is never averaged away.
-bool CaseRun::check(const Image& image) {
+void CaseRun::check_health_of(const Image& image) {
   const Health health = check_health(image);
-  HealthReport report = health_report(health);
+  const std::string pass = health.finite() ? "" : frame_->first_bad_pass();
+  HealthReport report = health_report(health, pass);
   if (result_.health) {  // counts add up over seeds
     report.nan += result_.health->nan;
     report.inf += result_.health->inf;
     report.negative += result_.health->negative;
   }
   result_.health = report;
-  if (health.finite()) return true;
-  const std::string pass = frame_->first_bad_pass();
-  result_.health = health_report(health, pass);
-  fail_with("not_finite", fmt::format("{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one",
-                                      health.nan, health.inf, health.first_bad->x, health.first_bad->y, pass));
-  return false;
+  if (health.finite()) return;
+  fail_with("not_finite",
+            fmt::format("{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one",
+                        health.nan, health.inf, health.first_bad->x, health.first_bad->y, pass));
+  throw fail(ErrorKind::case_failed, "not finite");  // ends the step; the failure above stays
 }
 
 void CaseRun::record(const FrameTimes& times) {
@@ -112,47 +136,53 @@ void CaseRun::record(const FrameTimes& times) {
     for (const auto& pass : times.passes) pass_names_.push_back(pass.name);
     pass_ms_.resize(pass_names_.size());
   }
-  for (size_t i = 0; i < pass_names_.size(); ++i) pass_ms_[i].push_back(times.passes.at(i).ms);
+  const auto same = [](const std::string& name, const PassTime& pass) { return name == pass.name; };
+  if (!std::equal(pass_names_.begin(), pass_names_.end(), times.passes.begin(), times.passes.end(), same)) {
+    throw fail(ErrorKind::case_failed, "frame {} had other passes than the first", span_ms_.size());
+  }
+  for (size_t i = 0; i < pass_names_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
   span_ms_.push_back(times.span_ms);
-  auto& generate = result_.generate ? *result_.generate : result_.generate.emplace();
-  generate.dispatches = times.generate_dispatches;
+  if (!result_.generate) result_.generate.emplace();
+  result_.generate->dispatches = times.generate_dispatches;
 }
 
 void CaseRun::describe_lights() {
   GenerateResult& generate = *result_.generate;
-  generate.lights = frame_->light_count();
-  const auto dark = [](const auto& lights) {
-    return static_cast<uint64_t>(std::count_if(lights.begin(), lights.end(), [](const auto& l) { return !(l.power > 0); }));
+  const auto without_power = [](const auto& lights) {
+    return static_cast<uint64_t>(
+        std::count_if(lights.begin(), lights.end(), [](const auto& l) { return !(l.power > 0); }));
   };
-  generate.empty = dark(frame_->vsgls()) + dark(frame_->vpls());
+  generate.lights = frame_->light_count();
+  generate.empty = without_power(frame_->vsgls()) + without_power(frame_->vpls());
   generate.shaders = frame_->method_kernels();
   generate.memory_bytes = frame_->method_bytes();
+  // Black, and measured as such: that the reference is not is the method's error.
   if (generate.empty == generate.lights) {
-    throw fail(ErrorKind::case_failed,
-               "no light carries power: the primary light sees no surface, or no surface that the camera's importance reaches");
+    log_warning("{}: no light carries power; the method found no texel that matters to the camera", case_.id);
   }
 }
 
-CaseResult CaseRun::result() {
-  for (size_t i = 0; i < pass_names_.size(); ++i) result_.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
+CaseResult CaseRun::result() const {
+  CaseResult r = result_;
+  for (size_t i = 0; i < pass_names_.size(); ++i)
+    r.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
   if (!span_ms_.empty()) {
-    result_.frame = frame_timing(span_ms_, result_.passes);
-    GenerateResult& generate = *result_.generate;
-    const auto gbuffer = sum_of_passes(result_.passes, {"generate.gbuffer."});
-    const auto rsm = sum_of_passes(result_.passes, {"generate.rsm."});
-    generate.gbuffer_ms = gbuffer ? gbuffer->median : 0;
-    generate.rsm_ms = rsm ? rsm->median : 0;
-    generate.total = *sum_of_passes(result_.passes, {"generate."});
+    r.frame = frame_timing(span_ms_, r.passes);
+    const auto total = sum_of_passes(r.passes, {"generate."});
+    const auto gbuffer = sum_of_passes(r.passes, {"generate.gbuffer."});
+    const auto rsm = sum_of_passes(r.passes, {"generate.rsm."});
+    r.generate->total = total ? *total : summarize(std::vector<double>(span_ms_.size(), 0));
+    r.generate->gbuffer_ms = gbuffer ? gbuffer->median : 0;
+    r.generate->rsm_ms = rsm ? rsm->median : 0;
   }
   if (!seeds_.empty()) {
-    const ReferenceInfo info{reference_->hash, reference_->samples, reference_->noise_floor_smape, {}};
-    const auto quantiles = result_.accuracy->quantiles;
-    result_.accuracy = accuracy_over_seeds(seeds_, info);
-    result_.accuracy->quantiles = quantiles;
-    result_.seeds = seeds_;
+    r.accuracy = accuracy_over_seeds(
+        seeds_, {reference_->hash, reference_->samples, reference_->noise_floor_smape, std::nullopt});
+    r.accuracy->quantiles = quantiles_;
+    r.seeds = seeds_;
   }
-  if (reason_) result_.stopping = Stopping{*reason_, span_ms_.size(), warmups_};
-  return result_;
+  if (reason_) r.stopping = Stopping{*reason_, span_ms_.size(), warmups_};
+  return r;
 }
 
 }  // namespace vsglbench

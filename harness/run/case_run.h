@@ -14,62 +14,88 @@
 
 namespace vsglbench {
 
-// Where a run's time went, in seconds (report field `wall`).
-struct WallTime {
-  double total = 0, device = 0, references = 0, visibility = 0, compilation = 0;
-  // Wall time beside references, exact visibility and compilation, over the device time of the frames.
-  double overhead_ratio() const { return device > 0 ? (total - references - visibility - compilation) / device : 0; }
-};
-
 class CaseRun {
  public:
-  // A case without a frame yet; `reference` is the one that matches its visibility.
-  CaseRun(const Case& description, const Config& config, const ReferenceResult* reference);
+  // A case without a frame yet. `config` and `wall` outlive it; times are added to `wall`.
+  CaseRun(const Case& description, const Config& config, WallTime* wall);
 
-  // Compiles its kernels and takes its memory. A failure marks the case.
-  void open(Stage& stage, ExactVisibility exact);
+  // Compiles its kernels and takes its memory; `reference` is the one that matches its visibility and
+  // outlives the case. Like warm_up() and step() it never throws: whatever goes wrong fails the case, and
+  // only this one.
+  void open(Stage& stage, const ReferenceResult& reference, ExactVisibility exact);
   // One untimed frame.
-  void warm_up(WallTime* wall);
-  // The next frame of the measurement: seeds first, then seed 0 until the stopping rule is met.
-  void step(WallTime* wall);
+  void warm_up();
+  // The next frame of the measurement: the seeds first, then seed 0 until the stopping rule is met.
+  void step();
+
   bool finished() const { return finished_ || failed(); }
   bool failed() const { return result_.status != Status::ok; }
+  uint64_t frames_left() const;  // at least
+  // The first failure stays; what was measured until then is kept. Kind "asset_missing" skips the case.
   void fail_with(const std::string& kind, const std::string& message);
-  void fail_with(const Error& error);
 
-  // Everything measured, as the report holds it.
-  CaseResult result();
+  // Everything measured so far, as the report holds it.
+  CaseResult result() const;
   const Case& description() const { return case_; }
   const std::optional<Image>& image() const { return first_image_; }  // of seed 0
   const ReferenceResult* reference() const { return reference_; }
-  const Mask& mask() const { return mask_; }  // pixels with a surface for the rasteriser and the reference alike
+  const Mask& mask() const {
+    return mask_;
+  }  // pixels with a surface for the rasteriser and the reference alike
   const std::vector<double>& span_samples() const { return span_ms_; }
-  uint64_t frames_left() const;
-  Frame* frame() { return frame_.get(); }
+  Frame* frame() { return frame_.get(); }  // null before open() and after a failure
 
  private:
-  bool check(const Image& image);
+  template <class Action>
+  void attempt(const Action& action);
+  uint32_t seeds() const;  // to be scored
+  FrameTimes render(uint32_t seed);
+  void score(uint32_t seed);
+  void make_mask();
+  void check_health_of(const Image& image);
   void record(const FrameTimes& times);
   void describe_lights();
-  bool randomised() const;
+
   Case case_;
   const Config& config_;
-  const ReferenceResult* reference_;
+  WallTime* wall_;
+  const ReferenceResult* reference_ = nullptr;
   std::unique_ptr<Frame> frame_;
-  CaseResult result_;
+  CaseResult result_;  // but for what result() makes of the samples below
   std::vector<std::string> pass_names_;
-  std::vector<std::vector<double>> pass_ms_;
+  std::vector<std::vector<double>> pass_ms_;  // of each pass, one a frame
   std::vector<double> span_ms_;
   std::vector<SeedResult> seeds_;
+  std::optional<ErrorQuantiles> quantiles_;
   std::optional<Image> first_image_;
   Mask mask_;
   std::optional<StopReason> reason_;
   uint64_t warmups_ = 0;
   double elapsed_s_ = 0;
-  bool finished_ = false;
+  bool rendered_ = false, finished_ = false;
 };
 
-// The report's name of an error's kind.
-std::string error_kind(const Error& error);
+// The report's name of an error: "case_failed", "device", or `input` for what the user gave.
+std::string error_kind(const Error& error, const char* input);
+
+// Calls `action`; hands whatever it throws to `failed(kind, message)`, the message on one line.
+template <class Action, class Failed>
+void guarded(const char* input, const Action& action, const Failed& failed);
+
+// "a\nb" as "a b".
+std::string one_line(std::string text);
+
+template <class Action, class Failed>
+void guarded(const char* input, const Action& action, const Failed& failed) {
+  try {
+    action();
+  } catch (const Error& e) {
+    failed(error_kind(e, input), one_line(e.what()));
+  } catch (const std::bad_alloc&) {
+    failed("case_failed", "out of memory; use a smaller frame, RSM or number of lights");
+  } catch (const std::exception& e) {
+    failed("internal", one_line(e.what()));
+  }
+}
 
 }  // namespace vsglbench

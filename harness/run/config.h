@@ -5,24 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "frame/frame.h"
 #include "measure/stopping.h"
+#include "run/sweep.h"
 
 namespace vsglbench {
 
 struct ReferenceSettings {
   uint32_t samples = 256, batches = 16;
   uint64_t seed = 1;
-};
-
-// One point of the sweep.
-struct Case {
-  std::string id;      // "cornell/mfis/N=256,rsm=256,vis=exact"
-  std::string scene;   // as a config writes it, "sponza:A_author_aisle"
-  std::string method;
-  FrameParameters frame;
-  Json method_parameters;  // resolved
-  Json parameters;         // everything resolved, for the report
 };
 
 struct Config {
@@ -33,14 +23,15 @@ struct Config {
   uint32_t warmup = 1;
   StoppingRule timing{0.02, 8, 200, 30};
   ReferenceSettings reference;
-  Json resolved;  // for the report
+  Json resolved;  // with every default filled in: the report's `config`
 };
 
-// Throws Error(config) "FILE:LINE: ..." for anything unknown, of a wrong type, out of range, or a sweep that
-// makes the same case twice.
+// Throws Error(config) "FILE:LINE: ..." for anything unknown, of a wrong type, out of range, a scene that
+// does not exist, or a sweep that makes the same case twice.
 Config load_config(const std::filesystem::path& path);
 
-// configs/NAME.json for a bare name, the path itself else.
+// A path as it is; a bare name as configs/NAME.json of the data folder. Throws Error(config) naming the
+// nearest one when that does not exist.
 std::filesystem::path config_path(const std::string& name_or_path);
 
 }  // namespace vsglbench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run/case_run.h"
+#include "report/report.h"
 
 namespace vsglbench {
 
@@ -22,12 +22,16 @@ struct RunOptions {
 
 struct RunOutcome {
   Report report;
-  WallTime wall;
   std::filesystem::path report_path;
-  int exit_code = 0;  // 0 all cases ok (skipped ones count as ok), 1 a case failed
+  std::vector<std::string> validation_messages;
+  // 0 all cases ok (skipped ones count as ok); 1 a case failed or the validation layers had something to say;
+  // 3 the device was lost (the report is then incomplete, and the run can be gone on with)
+  int exit_code = 0;
 };
 
-// Throws Error for what stops the whole run: config, output folder, device.
+// A scene's cases are measured interleaved, so they are finished, and saved, together: an interruption at any
+// moment loses the scene at hand and nothing else. Throws Error for what stops the whole run: config, output
+// folder, device.
 RunOutcome run_config(const RunOptions& options);
 
 // The options' folder, or VSGLBENCH_ASSETS, or empty.

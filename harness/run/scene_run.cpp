@@ -1,135 +1,135 @@
 #include "run/scene_run.h"
 
 #include <algorithm>
-#include <map>
 
 #include "base/log.h"
-#include "gpu/shader_compiler.h"
+#include "base/progress.h"
 #include "measure/stopwatch.h"
-#include "reference/cache.h"
-#include "reference/visibility.h"
+#include "run/memory.h"
+#include "run/references.h"
+#include "run/scene_images.h"
+#include "run/visibility_tracer.h"
 
 namespace vsglbench {
 namespace {
 
-// Answers exact visibility with the ray tracer, for the G-buffer that is on the device.
-class VisibilityTracer {
+// One scene on the device and in the ray tracer, and its cases.
+class SceneRun {
  public:
-  VisibilityTracer(const Tracer& tracer, WallTime* wall) : tracer_(tracer), wall_(wall) {}
+  SceneRun(Device& device, KernelLibrary& kernels, const Scene& scene, const Config& config, WallTime* wall)
+      : config_(config),
+        wall_(wall),
+        tracer_(timed_tracer(scene, wall)),
+        stage_(device, kernels, scene),
+        references_(scene, config, wall),
+        visibility_(tracer_, wall) {}
 
-  std::vector<uint32_t> trace(Frame& frame, const std::vector<LightPoint>& lights) {
-    const Stopwatch watch;
-    const auto& receivers = receivers_of(frame);
-    std::vector<TargetPoint> targets;
-    for (const auto& light : lights) targets.push_back({light.position, light.stop_short});
-    auto bits = compute_visibility(tracer_, receivers, frame.camera().width, frame.camera().height, targets);
-    wall_->visibility += watch.seconds();
-    return std::move(bits.words);
-  }
+  void open(const std::vector<Case>& cases);
+  void measure(const std::string& label, bool with_twin);
+  std::optional<AaPair> take_twin();
+  std::vector<CaseRun>& runs() { return runs_; }
 
  private:
-  const std::vector<ReceiverPoint>& receivers_of(Frame& frame) {
-    auto& points = receivers_[{frame.camera().width, frame.camera().height}];
-    if (points.empty()) {
-      const auto position = download_map(frame.gbuffer().maps[0]);
-      const auto normal = download_map(frame.gbuffer().maps[2]);
-      for (size_t i = 0; i < position.size(); ++i) {
-        points.push_back({glm::vec3(position[i]), glm::vec3(normal[i]), position[i].w > 0});
-      }
-    }
-    return points;
-  }
-  const Tracer& tracer_;
-  WallTime* wall_;
-  std::map<std::pair<uint32_t, uint32_t>, std::vector<ReceiverPoint>> receivers_;
-};
+  static Tracer timed_tracer(const Scene& scene, WallTime* wall);
+  void open(const Case& c);
+  void add_twin();
+  template <class Frame>
+  void every_case(Progress& progress, const Frame& frame);
 
-// The references that the cases ask for, by frame size and occlusion.
-class References {
- public:
-  References(const Scene& scene, const Config& config, WallTime* wall) : scene_(scene), config_(config), wall_(wall) {}
-
-  // Throws Error(case_failed) when the camera or the light sees nothing, or no light comes back.
-  const ReferenceResult& get(const Case& c) {
-    const bool occlusion = c.frame.visibility != Visibility::none;
-    auto& slot = results_[{c.frame.width, c.frame.height, occlusion}];
-    if (slot) return *slot;
-    const Stopwatch watch;
-    ReferenceParameters p;
-    p.width = c.frame.width;
-    p.height = c.frame.height;
-    p.samples = config_.reference.samples;
-    p.batches = config_.reference.batches;
-    p.seed = config_.reference.seed;
-    p.occlusion = occlusion;
-    bool cached = false;
-    ReferenceResult result = load_or_compute(scene_, p, &cached);
-    wall_->references += watch.seconds();
-    const bool black = std::all_of(result.mean.pixels.begin(), result.mean.pixels.end(),
-                                   [](const glm::vec3& v) { return v == glm::vec3(0); });
-    if (black) throw fail(ErrorKind::case_failed, "no indirect light reaches the view: the reference is black");
-    log_info("{}: reference{} of {} samples {} ({}), noise floor {:.2f} % SMAPE", scene_.name,
-             occlusion ? "" : " without occlusion", result.samples, cached ? "from the cache" : "computed",
-             format_duration(watch.seconds()), result.noise_floor_smape);
-    slot = std::make_unique<ReferenceResult>(std::move(result));
-    return *slot;
-  }
-
- private:
-  const Scene& scene_;
   const Config& config_;
   WallTime* wall_;
-  std::map<std::tuple<uint32_t, uint32_t, bool>, std::unique_ptr<ReferenceResult>> results_;
+  Tracer tracer_;
+  Stage stage_;
+  References references_;
+  VisibilityTracer visibility_;
+  std::vector<CaseRun> runs_;
+  uint64_t kept_bytes_ = 0;
+  bool twin_ = false;
 };
 
-// Every case in the order given, one frame each, round after round, until all are done.
-void measure_interleaved(std::vector<CaseRun>& cases, const std::string& scene, uint32_t warmup, WallTime* wall) {
+Tracer SceneRun::timed_tracer(const Scene& scene, WallTime* wall) {
+  struct Timer {
+    WallTime* wall;
+    Stopwatch watch;
+    ~Timer() { wall->references_s += watch.seconds(); }
+  } timer{wall, {}};
+  return Tracer(scene);
+}
+
+void SceneRun::open(const std::vector<Case>& cases) {
+  runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
+  for (const Case& c : cases) open(c);
+}
+
+void SceneRun::open(const Case& c) {
+  CaseRun& run = runs_.emplace_back(c, config_, wall_);
+  const auto failed = [&](const std::string& kind, const std::string& message) {
+    run.fail_with(kind, message);
+  };
+  guarded(
+      "config",
+      [&] {
+        require_memory(stage_.device.info(), c, kept_bytes_);
+        const ReferenceResult& reference = references_.get(c);
+        run.open(stage_, reference,
+                 [this, &run](const auto& lights) { return visibility_.trace(*run.frame(), lights); });
+        if (!run.failed()) kept_bytes_ += kept_memory(c);
+      },
+      failed);
+}
+
+// The first case that has proved sound, under another name: what the two show as a difference is noise.
+void SceneRun::add_twin() {
+  const auto sound = std::find_if(runs_.begin(), runs_.end(), [](const CaseRun& r) { return !r.failed(); });
+  if (sound == runs_.end()) return;
+  Case twin = sound->description();
+  twin.id += " (A/A twin)";
+  open(twin);
+  for (uint32_t i = 0; i < config_.warmup; ++i) runs_.back().warm_up();
+  twin_ = true;
+}
+
+template <class Frame>
+void SceneRun::every_case(Progress& progress, const Frame& frame) {
+  for (CaseRun& run : runs_) {
+    if (run.finished()) continue;
+    progress.label(run.description().id);
+    frame(run);
+    progress.advance();
+  }
+}
+
+void SceneRun::measure(const std::string& label, bool with_twin) {
   uint64_t frames = 0;
-  for (const auto& c : cases) frames += c.frames_left() + warmup;
-  Progress progress(scene, frames);
-  for (uint32_t i = 0; i < warmup; ++i) {
-    for (auto& c : cases) {
-      progress.label(c.description().id);
-      c.warm_up(wall);
-      progress.advance();
-    }
-  }
-  const auto unfinished = [](const CaseRun& c) { return !c.finished(); };
-  while (std::any_of(cases.begin(), cases.end(), unfinished)) {
-    for (auto& c : cases) {
-      if (c.finished()) continue;
-      progress.label(c.description().id);
-      c.step(wall);
-      progress.advance();
-    }
+  for (const CaseRun& run : runs_) frames += run.finished() ? 0 : run.frames_left() + config_.warmup;
+  Progress progress(label, frames);
+  for (uint32_t i = 0; i < config_.warmup; ++i) every_case(progress, [](CaseRun& run) { run.warm_up(); });
+  every_case(progress, [](CaseRun& run) { run.step(); });
+  if (with_twin) add_twin();  // a round behind the others, since a case that fails does so in its first frame
+  const auto unfinished = [](const CaseRun& run) { return !run.finished(); };
+  while (std::any_of(runs_.begin(), runs_.end(), unfinished)) {
+    every_case(progress, [](CaseRun& run) { run.step(); });
   }
 }
 
-std::vector<CaseRun> open_cases(Stage& stage, References& references, VisibilityTracer& visibility,
-                                const Config& config, const std::vector<Case>& cases) {
-  std::vector<CaseRun> runs;
-  runs.reserve(cases.size());
-  for (const Case& c : cases) {
-    try {
-      runs.emplace_back(c, config, &references.get(c));
-    } catch (const Error& e) {
-      runs.emplace_back(c, config, nullptr);
-      runs.back().fail_with(e);
-    }
-  }
-  for (auto& run : runs) {  // after all are in place: the callback keeps a pointer to its case
-    CaseRun* self = &run;
-    run.open(stage, [self, &visibility](const auto& lights) { return visibility.trace(*self->frame(), lights); });
-  }
-  return runs;
-}
-
-std::optional<AaPair> aa_pair(const CaseRun& a, const CaseRun& twin) {
-  if (a.failed() || twin.failed() || a.span_samples().empty() || twin.span_samples().empty()) return std::nullopt;
-  AaPair pair;
-  pair.case_id = a.description().id;
-  pair.twin_id = twin.description().id;
-  pair.ratio = median_ratio(a.span_samples(), twin.span_samples());
+// Removes the twin. Nothing when there is none, either failed, or the device's clock saw no time pass.
+std::optional<AaPair> SceneRun::take_twin() {
+  if (!twin_) return std::nullopt;
+  const CaseRun twin = std::move(runs_.back());
+  runs_.pop_back();
+  twin_ = false;
+  const auto same = [&](const CaseRun& run) {
+    return run.description().parameters == twin.description().parameters &&
+           run.description().method == twin.description().method;
+  };
+  const auto original = std::find_if(runs_.begin(), runs_.end(), same);
+  if (original->failed() || twin.failed()) return std::nullopt;
+  const auto positive = [](const std::vector<double>& samples) {
+    return std::all_of(samples.begin(), samples.end(), [](double s) { return s > 0; });
+  };
+  if (!positive(original->span_samples()) || !positive(twin.span_samples())) return std::nullopt;
+  AaPair pair{original->description().id, twin.description().id, {}, 0};
+  pair.ratio = median_ratio(original->span_samples(), twin.span_samples());
   pair.noise_floor = noise_floor(pair.ratio);
   return pair;
 }
@@ -144,64 +144,51 @@ SceneReport describe(const Scene& scene, const std::string& name) {
   return report;
 }
 
-// The scene on the device, all its cases measured, their images written.
-void measure_scene(Device& device, KernelLibrary& kernels, const Scene& scene, const std::string& name,
-                   const Config& config, std::vector<Case> cases, const SceneRunOptions& options, WallTime* wall,
+void measure_scene(Device& device, KernelLibrary& kernels, const Scene& scene, const Config& config,
+                   const std::vector<Case>& cases, const SceneRunOptions& options, WallTime* wall,
                    SceneOutcome* outcome) {
-  const Stopwatch build;
-  const Tracer tracer(scene);
-  wall->references += build.seconds();
-  const double compiled = shader_statistics().seconds;
-  Stage stage(device, kernels, scene);
-  References references(scene, config, wall);
-  VisibilityTracer visibility(tracer, wall);
-  if (options.aa) {
-    cases.push_back(cases.front());
-    cases.back().id += " (A/A twin)";
-  }
-  auto runs = open_cases(stage, references, visibility, config, cases);
-  wall->compilation += shader_statistics().seconds - compiled;
-  measure_interleaved(runs, name, config.warmup, wall);
-  if (options.aa) {
-    outcome->aa = aa_pair(runs.front(), runs.back());
-    runs.pop_back();
-  }
-  for (auto& run : runs) outcome->cases.push_back(run.result());
-  const auto drawn = std::find_if(runs.begin(), runs.end(), [](const CaseRun& r) { return r.image().has_value(); });
-  if (drawn == runs.end()) return;
-  outcome->scene->exposure = auto_exposure(drawn->reference()->mean, drawn->reference()->mask);
-  const Image direct = drawn->frame() ? drawn->frame()->render_direct() : Image();
-  outcome->scene->contact = write_images(options.out, name, runs, outcome->cases,
-                                         static_cast<float>(outcome->scene->exposure), direct);
-}
-
-void fail_all(const std::vector<Case>& cases, const Config& config, const std::string& kind,
-              const std::string& message, SceneOutcome* outcome) {
-  outcome->cases.clear();
-  for (const Case& c : cases) {
-    CaseRun run(c, config, nullptr);
-    run.fail_with(kind, message);
-    outcome->cases.push_back(run.result());
-  }
+  SceneRun run(device, kernels, scene, config, wall);
+  run.open(cases);
+  run.measure(outcome->scene->name, options.aa);
+  outcome->aa = run.take_twin();
+  std::vector<CaseResult> results;
+  for (const CaseRun& r : run.runs()) results.push_back(r.result());
+  write_images(options.out, run.runs(), results, &*outcome->scene);
+  outcome->cases = std::move(results);
 }
 
 }  // namespace
 
+std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config,
+                                     const std::string& kind, const std::string& message) {
+  std::vector<CaseResult> results;
+  for (const Case& c : cases) {
+    WallTime none;
+    CaseRun run(c, config, &none);
+    run.fail_with(kind, message);
+    results.push_back(run.result());
+  }
+  return results;
+}
+
 SceneOutcome run_scene(Device& device, KernelLibrary& kernels, const std::string& name, const Config& config,
                        const std::vector<Case>& cases, const SceneRunOptions& options, WallTime* wall) {
   SceneOutcome outcome;
-  try {
-    const Scene scene = load_scene(name, options.scenes);
-    outcome.scene = describe(scene, name);
-    log_info("{}: {} triangles", name, scene.triangles.size());
-    for (const auto& warning : scene.warnings) log_warning("{}: {}", name, warning);
-    measure_scene(device, kernels, scene, name, config, cases, options, wall, &outcome);
-  } catch (const AssetMissing& e) {
-    fail_all(cases, config, "asset_missing", e.what(), &outcome);
-  } catch (const Error& e) {
-    if (outcome.cases.size() == cases.size()) throw;  // measured, but the images can't be written
-    fail_all(cases, config, error_kind(e) == "input" ? "scene" : error_kind(e), e.what(), &outcome);
-  }
+  const auto failed = [&](const std::string& kind, const std::string& message) {
+    outcome.cases = failed_cases(cases, config, kind, message);
+  };
+  const auto run = [&] {
+    try {
+      const Scene scene = load_scene(name, options.scenes);
+      outcome.scene = describe(scene, name);
+      log_info("{}: {} triangles", name, scene.triangles.size());
+      for (const auto& warning : scene.warnings) log_warning("{}: {}", name, warning);
+      measure_scene(device, kernels, scene, config, cases, options, wall, &outcome);
+    } catch (const AssetMissing& e) {
+      failed("asset_missing", e.what());
+    }
+  };
+  guarded("scene", run, failed);
   return outcome;
 }
 

@@ -2,17 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <vector>
 
-#include "base/progress.h"
 #include "run/case_run.h"
 #include "scene/scene_file.h"
 
 namespace vsglbench {
 
 struct SceneOutcome {
-  std::vector<CaseResult> cases;
+  std::vector<CaseResult> cases;     // one for each that was asked for, in their order
   std::optional<SceneReport> scene;  // nothing when it could not be loaded
   std::optional<AaPair> aa;
 };
@@ -20,16 +19,15 @@ struct SceneOutcome {
 struct SceneRunOptions {
   SceneOptions scenes;
   std::filesystem::path out;  // images go to out/images
-  bool aa = false;            // measure the first case a second time under another name
+  bool aa = false;            // measure the first sound case a second time under another name
 };
 
-// Never throws for what is wrong with a case or a scene: that is in the outcome.
+// Never throws: what is wrong with a case or a scene is in the outcome.
 SceneOutcome run_scene(Device& device, KernelLibrary& kernels, const std::string& scene, const Config& config,
                        const std::vector<Case>& cases, const SceneRunOptions& options, WallTime* wall);
 
-// Writes images and the contact sheet of finished cases and notes their paths, relative to `out`, in `results`.
-// Returns the contact sheet's path.
-std::string write_images(const std::filesystem::path& out, const std::string& scene, std::vector<CaseRun>& cases,
-                         std::vector<CaseResult>& results, float exposure, const Image& direct);
+// Cases that were not run, all for the same reason.
+std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config,
+                                     const std::string& kind, const std::string& message);
 
 }  // namespace vsglbench

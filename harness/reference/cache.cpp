@@ -1,0 +1,107 @@
+#include "reference/cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/json.h"
+#include "base/log.h"
+#include "image/exr.h"
+#include "image/metrics.h"
+
+namespace vsglbench {
+namespace {
+
+std::filesystem::path cache_file(const std::string& hash, const char* extension) {
+  return cache_directory() / "references" / (hash + extension);
+}
+
+std::vector<float> to_floats(const std::vector<uint8_t>& mask) { return {mask.begin(), mask.end()}; }
+
+// Images first: the .json, written last, holds their hash and vouches for them.
+std::string image_hash(const ReferenceResult& r) {
+  Hasher hasher;
+  for (const Image* image : {&r.mean, &r.variance, &r.half[0], &r.half[1]}) hasher.array(image->pixels);
+  return hasher.array(r.mask).hex();
+}
+
+void store(const ReferenceResult& r, const ReferenceParameters& p) {
+  ExrLayers layers;
+  layers.width = r.mean.width;
+  layers.height = r.mean.height;
+  layers.colors = {{"", r.mean}, {"variance", r.variance}, {"half0", r.half[0]}, {"half1", r.half[1]}};
+  layers.scalars = {{"mask", to_floats(r.mask)}};
+  layers.attributes = {{"reference_hash", r.hash}};
+  write_exr(cache_file(r.hash, ".exr"), layers);
+  const Json meta = {{"hash", r.hash},
+                     {"images", image_hash(r)},
+                     {"width", p.width},
+                     {"height", p.height},
+                     {"occlusion", p.occlusion},
+                     {"seed", p.seed},
+                     {"samples", r.samples},
+                     {"batches", r.batches},
+                     {"photons", r.photons},
+                     {"rays", r.rays},
+                     {"seconds", r.seconds},
+                     {"noise_floor_smape", r.noise_floor_smape}};
+  write_text(cache_file(r.hash, ".json"), meta.dump(1) + "\n");
+}
+
+ReferenceResult parse(const std::string& hash) {
+  const auto document = JsonDocument::load(cache_file(hash, ".json"), ErrorKind::output);
+  const Json& meta = document.root();
+  const ExrLayers layers = read_exr_layers(cache_file(hash, ".exr"));
+  ReferenceResult r;
+  r.mean = layers.colors.at("");
+  r.variance = layers.colors.at("variance");
+  r.half[0] = layers.colors.at("half0");
+  r.half[1] = layers.colors.at("half1");
+  const std::vector<float>& mask = layers.scalars.at("mask");
+  r.mask.assign(mask.begin(), mask.end());
+  r.hash = meta.at("hash");
+  r.samples = meta.at("samples");
+  r.batches = meta.at("batches");
+  r.photons = meta.at("photons");
+  r.rays = meta.at("rays");
+  r.seconds = meta.at("seconds");
+  r.noise_floor_smape = meta.at("noise_floor_smape");
+  if (r.hash != hash || meta.at("images") != image_hash(r)) {
+    throw fail(ErrorKind::output, "its content isn't what its .json says");
+  }
+  return r;
+}
+
+// Nothing when there is no such file or it is not to be trusted.
+std::optional<ReferenceResult> load(const std::string& hash, const ReferenceParameters& p) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(cache_file(hash, ".json"), ignored)) return std::nullopt;
+  try {
+    ReferenceResult r = parse(hash);
+    if (r.mean.width == p.width && r.mean.height == p.height) return r;
+    log_warning("{}: of another size than its name says; computing the reference anew", cache_file(hash, ".exr").string());
+  } catch (const std::exception& e) {
+    log_warning("cached reference {} is damaged ({}); computing it anew", hash, e.what());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ReferenceResult load_or_compute(const Scene& scene, const ReferenceParameters& parameters, bool* from_cache) {
+  const std::string hash = reference_hash(scene, parameters);
+  auto cached = load(hash, parameters);
+  if (from_cache) *from_cache = cached.has_value();
+  if (cached) return *std::move(cached);
+  ReferenceResult fresh = compute_reference(scene, parameters);
+  try {
+    store(fresh, parameters);
+  } catch (const std::exception& e) {
+    log_warning("the reference of {} can't be cached: {}", scene.name, e.what());
+  }
+  return fresh;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,14 @@
+// References on disk: <cache>/references/<hash>.exr and .json.
+#pragma once
+
+#include "reference/reference.h"
+
+namespace vsglbench {
+
+// The cached reference of `hash` (reference_hash), or a new one, which is then stored. A file that is
+// damaged, truncated or of another size is computed anew; a cache that can't be written is a warning.
+// `from_cache`, if given, says which it was.
+ReferenceResult load_or_compute(const Scene& scene, const ReferenceParameters& parameters,
+                                bool* from_cache = nullptr);
+
+}  // namespace vsglbench

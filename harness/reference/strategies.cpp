@@ -1,0 +1,244 @@
+#include "reference/strategies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "image/image.h"
+#include "reference/random.h"
+#include "scene/surface.h"
+
+namespace vsglbench {
+namespace {
+
+bool is_black(const glm::vec3& c) { return c.x <= 0 && c.y <= 0 && c.z <= 0; }
+
+// Calls visit(hit) for the closest hit, or for every hit along the ray where nothing occludes.
+template <class Visit>
+void for_hits(RayStream& rays, const glm::vec3& origin, const glm::vec3& direction, bool closest_only,
+              const Visit& visit) {
+  // A step of a few ulps, or a picometre from a hit at the origin itself, passes the triangle just met: the
+  // ray is the same, so is the distance Embree finds. Triangles that coincide count as one.
+  constexpr float past = 1 + 0x1p-21f, least = 1e-12f;
+  auto hit = rays.intersect(origin, direction);
+  while (hit) {
+    visit(*hit);
+    if (closest_only) return;
+    hit = rays.intersect(origin, direction, std::max(hit->distance * past, least));
+  }
+}
+
+// Whether a direction leaves the surface on the side of both normals.
+bool leaves(const Brdf& brdf, const glm::vec3& direction) {
+  return glm::dot(brdf.geometric_normal(), direction) > 0 && glm::dot(brdf.normal(), direction) > 0;
+}
+
+}  // namespace
+
+Strategies::Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t width, uint32_t height,
+                       uint64_t seed, bool occlusion, const std::vector<Footprint>& footprints)
+    : tracer_(tracer),
+      light_(light_view(tracer.scene().light)),
+      camera_(camera),
+      axis_flux_(flux_density(tracer.scene().light, {0.5f, 0.5f})),
+      width_(width),
+      height_(height),
+      seed_(seed),
+      occlusion_(occlusion),
+      footprints_(footprints),
+      pool_(size_t(pool_size) * pool_size),
+      guide_(width, height) {}
+
+Strategies::Emitter Strategies::make_emitter(const Hit& hit, const glm::vec2& uv, const glm::vec3& to_light,
+                                             float distance) const {
+  const Surface surface = surface_at(tracer_.scene(), hit.triangle, hit.barycentric, to_light);
+  Emitter x1;
+  x1.position = surface.position;
+  x1.ray_origin = tracer_.offset(surface.position, surface.geometric_normal);
+  const float c = -glm::dot(to_light, light_.view().forward);
+  x1.flux = light_.view().perspective ? c * c * c : 1;  // as flux_density has it
+  x1.density = light_.facing_density(-to_light, distance) * std::abs(glm::dot(surface.geometric_normal, to_light));
+  x1.brdf = Brdf(surface, to_light);
+  x1.cell = LightGuide::cell(uv);
+  return x1;
+}
+
+Strategies::Emitter Strategies::trace_emitter(const glm::vec2& uv, RayStream& rays) const {
+  glm::vec3 origin, direction;
+  light_.view().ray(uv, &origin, &direction);
+  const auto hit = rays.intersect(origin, direction);
+  return hit ? make_emitter(*hit, uv, -direction, hit->distance) : Emitter();
+}
+
+void Strategies::trace_pool_row(uint32_t row, uint32_t batch, RayStream& rays) {
+  for (uint32_t column = 0; column < pool_size; ++column) {
+    const uint32_t cell = row * pool_size + column;
+    const glm::vec2 jitter(random4(seed_, Stream::pool, batch, cell));
+    pool_[cell] = trace_emitter((glm::vec2(column, row) + jitter) / float(pool_size), rays);
+  }
+}
+
+std::optional<double> Strategies::sharp_share() const {
+  double sharp = 0, all = 0;
+  for (const Emitter& x1 : pool_) {
+    if (!(x1.density > 0)) continue;
+    all += x1.flux;
+    sharp += x1.flux * x1.brdf.sharpness();
+  }
+  if (!(all > 0)) return std::nullopt;
+  return sharp / all;
+}
+
+glm::vec3 Strategies::contribution(const Emitter& x1, const Receiver& x2) const {
+  const Brdf &brdf1 = x1.brdf, &brdf2 = x2.footprint->brdf;
+  const glm::vec3 d = x1.position - x2.position;
+  const float distance2 = glm::dot(d, d);
+  if (!(distance2 > 0)) return glm::vec3(0);
+  const float inverse = 1 / std::sqrt(distance2), inverse2 = inverse * inverse;
+  const glm::vec3 to_x1 = d * inverse;
+  const BrdfValue f2 = brdf2.evaluate(to_x1);
+  if (is_black(f2.f)) return glm::vec3(0);
+  const BrdfValue f1 = brdf1.evaluate(-to_x1);
+  if (is_black(f1.f)) return glm::vec3(0);
+
+  // The balance heuristic's sum of n_i p_i, over k where all share it.
+  const float geometric1 = -glm::dot(brdf1.geometric_normal(), to_x1);
+  const float geometric2 =
+      x2.geometric_cosine >= 0 ? x2.geometric_cosine : glm::dot(brdf2.geometric_normal(), to_x1);
+  const float guide = guide_.density(x2.footprint->tile, x1.cell);
+  const float light = static_cast<float>(counts_.light) * x1.density * guide;
+  const float receiver = static_cast<float>(receiver_samples(*x2.footprint)) * f2.pdf * geometric1 * inverse2;
+  const float emitter = static_cast<float>(counts_.photons) * x1.density * f1.pdf * geometric2 * inverse2;
+  const float sum = x2.kernel * (light + receiver) + emitter;
+  if (!(sum > 0)) return glm::vec3(0);
+  const float cosines = -glm::dot(brdf1.normal(), to_x1) * glm::dot(brdf2.normal(), to_x1);
+  return axis_flux_ * f1.f * f2.f * (x1.flux * x2.kernel * x1.density * cosines * inverse2 / sum);
+}
+
+glm::vec3 Strategies::from_light(const Footprint& x2, const Emitter& x1, RayStream& rays) const {
+  const glm::vec3 d = x2.position - x1.position;
+  if (!(x1.density > 0) || !leaves(x1.brdf, d) || !leaves(x2.brdf, -d)) return glm::vec3(0);
+  if (occlusion_ && rays.occluded(x2.ray_origin, x1.ray_origin)) return glm::vec3(0);
+  return contribution(x1, {&x2, x2.position, x2.kernel, -1});
+}
+
+glm::vec3 Strategies::connect_receiver(const Footprint& x2, const glm::vec3& direction, const Hit& hit,
+                                       RayStream& rays) const {
+  // x1 must lie in the light's frustum, lit from the side that x2 sees, with nothing before it.
+  const glm::vec3 point = x2.ray_origin + hit.distance * direction;
+  const auto uv = light_.project(point);
+  if (!uv) return glm::vec3(0);
+  const glm::vec3 origin = light_.origin(point), d = origin - point;
+  const float side = glm::dot(hit.face_normal, direction) < 0 ? 1 : -1;
+  if (side * glm::dot(hit.face_normal, d) <= 0) return glm::vec3(0);
+  const glm::vec3 normal = glm::normalize(hit.face_normal) * side;
+  if (rays.occluded(tracer_.offset(point, normal), origin)) return glm::vec3(0);
+  const float distance = glm::length(d);
+  return contribution(make_emitter(hit, *uv, d / distance, distance), {&x2, x2.position, x2.kernel, -1});
+}
+
+glm::vec3 Strategies::from_receiver(const Footprint& x2, const glm::vec3& random, RayStream& rays) const {
+  const auto direction = x2.brdf.sample(random);
+  if (!direction || !leaves(x2.brdf, *direction)) return glm::vec3(0);
+  glm::vec3 sum(0);
+  for_hits(rays, x2.ray_origin, *direction, occlusion_,
+           [&](const Hit& hit) { sum += connect_receiver(x2, *direction, hit, rays); });
+  return sum;
+}
+
+// A cell of the guide, then one of the pool's 2x2 in it.
+const Strategies::Emitter& Strategies::choose(uint32_t tile, const glm::uvec3& bits) const {
+  static_assert(pool_size == 2 * LightGuide::cells);
+  const glm::uvec2 cell = LightGuide::column_row(guide_.sample(tile, bits.x));
+  return pool_[(2 * cell.y + (bits.y >> 31)) * pool_size + 2 * cell.x + (bits.y >> 30 & 1)];
+}
+
+glm::vec3 Strategies::gather_light(uint32_t pixel, uint32_t batch, bool teach, RayStream& rays) {
+  const Footprint& x2 = footprints_[pixel];
+  const Lattice lattice(counts_.light, glm::uvec3(random_bits(seed_, Stream::light, batch, pixel)));
+  thread_local std::vector<std::pair<uint32_t, float>> found;  // cell, luminance
+  found.clear();
+  glm::vec3 sum(0);
+  const Emitter* next = &choose(x2.tile, lattice.bits(0));
+  for (uint32_t i = 0; i < counts_.light; ++i) {
+    // The next x1 comes into the cache while this one's ray is traced.
+    const Emitter& x1 = *next;
+    next = &choose(x2.tile, lattice.bits(i + 1));
+    __builtin_prefetch(next);
+    __builtin_prefetch(&next->flux);
+    const glm::vec3 radiance = from_light(x2, x1, rays);
+    sum += radiance;
+    if (teach && !is_black(radiance)) found.emplace_back(x1.cell, luminance(radiance));
+  }
+  // Each pixel teaches the shares of its own light, so that dark pixels count too.
+  const float total = luminance(sum);
+  for (const auto& [cell, value] : found) guide_.teach(x2.tile, cell, value / total);
+  return sum;
+}
+
+glm::vec3 Strategies::gather_receiver(uint32_t pixel, uint32_t batch, RayStream& rays) const {
+  const Footprint& x2 = footprints_[pixel];
+  const uint32_t n = receiver_samples(x2);
+  const Lattice directions(n, glm::uvec3(random_bits(seed_, Stream::receiver, batch, pixel)));
+  glm::vec3 sum(0);
+  for (uint32_t i = 0; i < n; ++i) sum += from_receiver(x2, directions.point(i), rays);
+  return sum;
+}
+
+void Strategies::gather(uint32_t tile, uint32_t batch, bool teach, RayStream& rays, glm::vec3* estimate) {
+  const uint32_t size = guide_.tile_size();
+  const uint32_t x0 = tile % guide_.tiles_x() * size, y0 = tile / guide_.tiles_x() * size;
+  for (uint32_t y = y0; y < std::min(y0 + size, height_); ++y) {
+    for (uint32_t x = x0; x < std::min(x0 + size, width_); ++x) {
+      const uint32_t pixel = y * width_ + x;
+      estimate[pixel] = glm::vec3(0);
+      if (!footprints_[pixel].valid) continue;
+      if (counts_.light > 0) estimate[pixel] += gather_light(pixel, batch, teach, rays);
+      if (counts_.receiver > 0) estimate[pixel] += gather_receiver(pixel, batch, rays);
+    }
+  }
+}
+
+bool Strategies::land(const Emitter& x1, const glm::vec3& direction, const Hit& hit, RayStream& rays,
+                      Splat* splat) const {
+  // The pixel it projects to, if that pixel's centre sees the same surface.
+  const glm::vec3 point = x1.ray_origin + hit.distance * direction;
+  const auto uv = camera_.project(point);
+  if (!uv) return false;
+  const uint32_t x = std::min(static_cast<uint32_t>(uv->x * static_cast<float>(width_)), width_ - 1);
+  const uint32_t y = std::min(static_cast<uint32_t>(uv->y * static_cast<float>(height_)), height_ - 1);
+  const Footprint& footprint = footprints_[size_t(y) * width_ + x];
+  if (!footprint.valid) return false;
+  const glm::vec3 eye = camera_.view().position, to_eye = eye - point;
+  glm::vec3 normal = glm::normalize(hit.face_normal);
+  if (glm::dot(normal, to_eye) < 0) normal = -normal;
+  const float cosine = -glm::dot(normal, direction);
+  if (!(cosine > 0) || !footprint.same_surface(point, normal)) return false;
+
+  // Its kernel: the footprint's density where it landed.
+  const float distance = glm::length(to_eye);
+  const float facing = camera_.facing_density(-to_eye / distance, distance);
+  const float kernel = facing * glm::dot(normal, to_eye) / distance * footprint.uv_density;
+  *splat = {y * width_ + x, contribution(x1, {&footprint, point, kernel, cosine})};
+  return !is_black(splat->radiance) && !rays.occluded(tracer_.offset(point, normal), eye);
+}
+
+void Strategies::emit(uint32_t first, uint32_t last, uint32_t batch, RayStream& rays,
+                      std::vector<Splat>* splats) const {
+  const Lattice plane(counts_.photons, glm::uvec3(random_bits(seed_, Stream::photon_plane, batch, 0)));
+  for (uint32_t i = first; i < last; ++i) {
+    // x1: photons together are one stratified set over the light's plane.
+    const Emitter x1 = trace_emitter(glm::vec2(plane.point(i)), rays);
+    if (!(x1.density > 0)) continue;
+
+    // x2, by its BRDF.
+    const auto direction = x1.brdf.sample(glm::vec3(random4(seed_, Stream::photon_direction, batch, i)));
+    if (!direction || !leaves(x1.brdf, *direction)) continue;
+    for_hits(rays, x1.ray_origin, *direction, occlusion_, [&](const Hit& hit) {
+      Splat splat;
+      if (land(x1, *direction, hit, rays, &splat)) splats->push_back(splat);
+    });
+  }
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,108 @@
+// The three ways to find a path light -> x1 -> x2 -> eye, and the weight that combines them.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "reference/footprint.h"
+#include "reference/light_guide.h"
+#include "reference/ray_stream.h"
+#include "reference/reference.h"
+
+namespace vsglbench {
+
+// Samples a batch takes: of a pixel, and of the whole image. 0 switches a strategy off.
+struct SampleCounts {
+  uint32_t light = 0;     // a pixel
+  uint32_t receiver = 0;  // a pixel whose BRDF is sharp; a quarter (rounded up) of it elsewhere
+  uint32_t photons = 0;   // the image
+};
+
+// Radiance that a photon brings to a pixel.
+struct Splat {
+  uint32_t pixel = 0;
+  glm::vec3 radiance{0};
+};
+
+// Every sample, whatever strategy found it, contributes f/sum(n_i p_i): the balance heuristic (Veach 1997,
+// §9.2.2). With all densities over the product of the image plane of the light, mapped onto x1, and of area at
+// x2, k the inverse of the footprint's area, and p_L = d(u,v)/dA at x1:
+//   f    = k Phi p_L f1 cos1 f2 cos2 / d^2       Phi the flux density over (u,v), cos1, cos2 of shading normals
+//   light    p = k p_L g        g the tile's LightGuide density
+//   receiver p = k p_brdf(x2 -> x1) cos_g1 / d^2
+//   emitter  p = p_L p_brdf(x1 -> x2) cos_g2 / d^2
+// `light` and `receiver` are exact at the pixel's centre; `emitter` averages over the pixel's footprint.
+// cos1 is of x1's shading normal, as for a virtual point light of that normal: the power it sends differs from
+// what a bump map on real relief would send, in the same way for every method measured here.
+class Strategies {
+ public:
+  Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t width, uint32_t height, uint64_t seed,
+             bool occlusion, const std::vector<Footprint>& footprints);
+
+  // Row `row` of the pool of x1 that `light` draws from in this batch: pool_size^2 cells of the light's plane,
+  // each with one ray at a jittered place. The pool is small enough to stay in a core's cache.
+  static constexpr uint32_t pool_bits = 6, pool_size = 1u << pool_bits;
+  void trace_pool_row(uint32_t row, uint32_t batch, RayStream& rays);
+
+  // Of the pool's flux that meets a surface, the share that sharp lobes reflect; nothing if all rays miss.
+  std::optional<double> sharp_share() const;
+
+  // Must be set before anything below.
+  void set_counts(const SampleCounts& counts) { counts_ = counts; }
+
+  LightGuide& guide() { return guide_; }
+
+  // `light` and `receiver` for the pixels of one tile of the guide in one batch: writes each one's part of the
+  // radiance to estimate[pixel], 0 where there is no surface, and teaches the guide if asked to.
+  void gather(uint32_t tile, uint32_t batch, bool teach, RayStream& rays, glm::vec3* estimate);
+
+  // `emitter`: photons [first, last) of one batch; appends their splats.
+  void emit(uint32_t first, uint32_t last, uint32_t batch, RayStream& rays, std::vector<Splat>* splats) const;
+
+ private:
+  // x1: a surface as the light sees it. Two cache lines.
+  struct alignas(64) Emitter {
+    glm::vec3 position{0};
+    float density = 0;  // p_L, 1/m^2; 0: the light's ray met nothing
+    Brdf brdf;          // and the normals, towards the light
+    float flux = 0;     // over (u,v), relative to axis_flux_
+    uint32_t cell = 0;  // of the LightGuide
+    glm::vec3 ray_origin{0};  // `position`, moved off the surface towards the light
+  };
+  // x2: a point of a pixel's footprint.
+  struct Receiver {
+    const Footprint* footprint;
+    glm::vec3 position;
+    float kernel;            // 1/m^2
+    float geometric_cosine;  // with the direction to x1; < 0: that of the footprint's normal
+  };
+
+  uint32_t receiver_samples(const Footprint& x2) const {
+    return x2.brdf.sharpness() > 0 ? counts_.receiver : (counts_.receiver + 3) / 4;
+  }
+  Emitter make_emitter(const Hit& hit, const glm::vec2& uv, const glm::vec3& to_light, float distance) const;
+  const Emitter& choose(uint32_t tile, const glm::uvec3& bits) const;
+  glm::vec3 gather_light(uint32_t pixel, uint32_t batch, bool teach, RayStream& rays);
+  glm::vec3 gather_receiver(uint32_t pixel, uint32_t batch, RayStream& rays) const;
+  Emitter trace_emitter(const glm::vec2& uv, RayStream& rays) const;
+  glm::vec3 contribution(const Emitter& x1, const Receiver& x2) const;
+  glm::vec3 from_light(const Footprint& x2, const Emitter& x1, RayStream& rays) const;
+  glm::vec3 from_receiver(const Footprint& x2, const glm::vec3& random, RayStream& rays) const;
+  glm::vec3 connect_receiver(const Footprint& x2, const glm::vec3& direction, const Hit& hit, RayStream& rays) const;
+  bool land(const Emitter& x1, const glm::vec3& direction, const Hit& hit, RayStream& rays, Splat* splat) const;
+
+  const Tracer& tracer_;
+  ImagePlane light_, camera_;
+  glm::vec3 axis_flux_;  // flux density over (u,v) on the light's axis, W
+  uint32_t width_, height_;
+  uint64_t seed_;
+  bool occlusion_;
+  SampleCounts counts_;
+  const std::vector<Footprint>& footprints_;
+  std::vector<Emitter> pool_;
+  LightGuide guide_;
+};
+
+}  // namespace vsglbench

@@ -1,0 +1,154 @@
+// Physics across rooms: the rasteriser against rays, brute force against the reference, clustering against brute
+// force. Small frames; RSMs of 32² to 128².
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "frame/frame.h"
+#include "image/metrics.h"
+#include "reference/reference.h"
+#include "reference/visibility.h"
+#include "scene/scene_file.h"
+#include "scene/surface.h"
+
+using namespace vsglbench;
+
+namespace {
+
+constexpr uint32_t kWidth = 96, kHeight = 54;
+
+// One scene, its device data and its references, shared by the tests below.
+class Laboratory {
+ public:
+  explicit Laboratory(const std::string& name)
+      : scene(load_scene(name, {data_root() / "scenes", {}})), tracer(scene), kernels(device()), stage(device(), kernels, scene) {}
+
+  static Device& device() {
+    static Device d;
+    return d;
+  }
+
+  Image render(const std::string& method, const Json& own, uint32_t rsm, uint32_t lights, Visibility visibility) {
+    FrameParameters p{.width = kWidth, .height = kHeight, .rsm = rsm, .lights = lights, .importance_lights = 256,
+                      .visibility = visibility};
+    const MethodInfo& info = find_method(method);
+    Frame* self = nullptr;
+    Frame frame(stage, info, resolve_parameters(info, own), p,
+                [&](const std::vector<LightPoint>& points) { return bits(*self, points); });
+    self = &frame;
+    frame.render(0);
+    mask = frame.surface_mask();
+    return frame.indirect();
+  }
+
+  const ReferenceResult& reference(bool occlusion) {
+    auto& slot = references_[occlusion];
+    if (!slot) {
+      slot = compute_reference(tracer, {.width = kWidth, .height = kHeight, .samples = 2048, .occlusion = occlusion});
+    }
+    return *slot;
+  }
+
+  Errors against_reference(const Image& image, bool occlusion) {
+    const auto& r = reference(occlusion);
+    Mask both = mask;
+    for (size_t i = 0; i < both.size(); ++i) both[i] = both[i] && r.mask[i];
+    return measure_errors(image, r.mean, both);
+  }
+
+  const Scene scene;
+  const Tracer tracer;
+  KernelLibrary kernels;
+  Stage stage;
+  Mask mask;
+
+ private:
+  std::vector<uint32_t> bits(Frame& frame, const std::vector<LightPoint>& points) {
+    const auto position = download_map(frame.gbuffer().maps[0]), normal = download_map(frame.gbuffer().maps[2]);
+    std::vector<ReceiverPoint> receivers;
+    for (size_t i = 0; i < position.size(); ++i) {
+      receivers.push_back({glm::vec3(position[i]), glm::vec3(normal[i]), position[i].w > 0});
+    }
+    std::vector<TargetPoint> targets;
+    for (const auto& p : points) targets.push_back({p.position, p.stop_short});
+    return compute_visibility(tracer, receivers, kWidth, kHeight, targets).words;
+  }
+  std::map<bool, std::optional<ReferenceResult>> references_;
+};
+
+Laboratory& cornell() {
+  static Laboratory lab("cornell");
+  return lab;
+}
+
+}  // namespace
+
+// all-texels with exact BRDFs: only the RSM's resolution stands between it and the truth.
+class BruteForce : public ::testing::TestWithParam<Visibility> {};
+
+TEST_P(BruteForce, ConvergesToTheReference) {
+  Laboratory& lab = cornell();
+  double previous = 1e9;
+  for (const uint32_t rsm : {32u, 64u, 128u}) {
+    const Image image = lab.render("all-texels", {{"shading", "exact"}}, rsm, 0, GetParam());
+    const Errors e = lab.against_reference(image, GetParam() == Visibility::exact);
+    std::printf("rsm %u: SMAPE %.3f %%, bias %+.3f %%\n", rsm, e.smape, 100 * *e.bias);
+    EXPECT_LT(e.smape, previous) << "the error must fall as the RSM grows to " << rsm;
+    previous = e.smape;
+    if (rsm == 128) EXPECT_LT(std::abs(*e.bias), 0.01);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Visibility, BruteForce, ::testing::Values(Visibility::exact, Visibility::none));
+
+// With N up to the number of texels, mfis comes to what all texels give with the same SG lobes.
+TEST(Clustering, ConvergesToBruteForceWithTheSameLobes) {
+  Laboratory& lab = cornell();
+  const Image brute = lab.render("all-texels", {{"shading", "vsgl16"}}, 64, 0, Visibility::none);
+  double previous = 1e9;
+  for (const uint32_t lights : {16u, 64u, 256u, 1024u, 4096u}) {
+    const Image image = lab.render("mfis", Json::object(), 64, lights, Visibility::none);
+    const Errors e = measure_errors(image, brute, lab.mask);
+    std::printf("N %u: SMAPE %.3f %%, bias %+.3f %%\n", lights, e.smape, 100 * *e.bias);
+    EXPECT_LT(e.smape, previous) << "N = " << lights;
+    previous = e.smape;
+  }
+  EXPECT_LT(previous, 1.0);
+}
+
+// The G-buffer holds what rays through the pixel centres hit, textures and normal maps included; triangle edges
+// that fall on the other side of a pixel centre are the only difference.
+TEST(Rasteriser, SeesWhatRaysSee) {
+  Laboratory lab("colonnade");
+  lab.render("vpl", Json::object(), 64, 1, Visibility::none);
+  const DeferredTargets& g = lab.stage.targets(Half::gbuffer, kWidth, kHeight);
+  const auto position = download_map(g.maps[0]), normal = download_map(g.maps[1]), geometric = download_map(g.maps[2]),
+             diffuse = download_map(g.maps[3]), f0 = download_map(g.maps[4]);
+  const View view = camera_view(lab.scene.camera, kWidth, kHeight);
+  size_t different = 0, compared = 0;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      glm::vec3 origin, direction;
+      view.ray({(x + 0.5f) / kWidth, (y + 0.5f) / kHeight}, &origin, &direction);
+      const auto hit = lab.tracer.intersect(origin, direction);
+      const size_t i = size_t(y) * kWidth + x;
+      if (!hit || !(position[i].w > 0)) {
+        different += hit.has_value() != (position[i].w > 0);
+        continue;
+      }
+      ++compared;
+      const Surface s = surface_at(lab.scene, hit->triangle, hit->barycentric, -direction);
+      const float distance = glm::length(s.position - origin);
+      // 8-bit texture filtering weights allow 1/256 of a texel's step in colour and normal.
+      const bool same = glm::length(glm::vec3(position[i]) - s.position) < 1e-3f * distance &&
+                        glm::length(glm::vec3(geometric[i]) - s.geometric_normal) < 1e-3f &&
+                        glm::length(glm::vec3(normal[i]) - s.normal) < 0.03f &&
+                        glm::length(glm::vec3(diffuse[i]) - s.diffuse) < 0.02f &&
+                        glm::length(glm::vec3(f0[i]) - s.f0) < 0.02f &&
+                        std::abs(normal[i].w - s.ndf) < 1e-3f * std::abs(s.ndf);
+      different += !same;
+    }
+  }
+  std::printf("%zu of %zu pixels differ\n", different, compared);
+  EXPECT_GT(compared, kWidth * kHeight / 2);
+  EXPECT_LT(static_cast<double>(different), 0.01 * kWidth * kHeight);
+}

@@ -1,0 +1,37 @@
+// The references that one scene's cases are compared with, each computed or read once.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "reference/reference.h"
+#include "report/report.h"
+#include "run/config.h"
+
+namespace vsglbench {
+
+// By frame size and occlusion: `none` is compared without occlusion between the bounces, all else with it.
+class References {
+ public:
+  References(const Scene& scene, const Config& config, WallTime* wall)
+      : scene_(scene), config_(config), wall_(wall) {}
+
+  // Throws Error(case_failed) when it does not fit into memory, the camera or the light sees nothing, or no
+  // light comes back; asked again, the same error at once.
+  const ReferenceResult& get(const Case& c);
+
+ private:
+  struct Slot {
+    std::unique_ptr<ReferenceResult> result;
+    std::optional<Error> error;
+  };
+  ReferenceResult obtain(const Case& c, bool occlusion);
+  const Scene& scene_;
+  const Config& config_;
+  WallTime* wall_;
+  std::map<std::tuple<uint32_t, uint32_t, bool>, Slot> slots_;
+};
+
+}  // namespace vsglbench

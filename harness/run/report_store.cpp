@@ -1,0 +1,78 @@
+#include "run/report_store.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "base/file.h"
+#include "base/log.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+bool same_machine(const DeviceReport& a, const DeviceReport& b) {
+  return a.name == b.name && a.driver_version == b.driver_version && a.settings == b.settings;
+}
+
+bool same_run(const Report& a, const Report& b) {
+  return a.config == b.config && a.git.commit == b.git.commit && a.git.dirty == b.git.dirty &&
+         same_machine(a.device, b.device);
+}
+
+void move(const fs::path& from, const fs::path& to) {
+  std::error_code ec;
+  fs::rename(from, to, ec);
+  if (ec)
+    throw fail(ErrorKind::output, "{}: can't be moved to {}: {}", from.string(), to.string(), ec.message());
+}
+
+}  // namespace
+
+ReportStore::ReportStore(const fs::path& folder) : folder_(folder), path_(folder / "report.json") {
+  ensure_writable_directory(folder_);
+  std::error_code ec;
+  if (fs::is_directory(path_, ec))
+    throw fail(ErrorKind::output, "{}: is a folder; remove it", path_.string());
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    throw fail(ErrorKind::output, "{}: another run is writing there; wait for it or give another --out",
+               folder_.string());
+  }
+}
+
+ReportStore::~ReportStore() {
+  if (lock_ >= 0) ::close(lock_);  // gives the lock back, too
+}
+
+Report ReportStore::open(const Report& fresh, bool anew) {
+  std::error_code ec;
+  if (!fs::exists(path_, ec)) return fresh;
+  try {
+    Report earlier = read_report(path_);
+    if (!anew && !earlier.complete && same_run(earlier, fresh)) {
+      earlier.argv = fresh.argv;
+      return earlier;
+    }
+    aside_ = folder_ / (earlier.complete ? "report.previous.json" : "report.incomplete.json");
+  } catch (const Error& e) {
+    log_warning("{}; it is kept as report.damaged.json", e.what());
+    aside_ = folder_ / "report.damaged.json";
+  }
+  return fresh;
+}
+
+void ReportStore::save(const Report& report) {
+  if (!aside_) return write_report(path_, report);
+  const fs::path next = folder_ / ".report.next.json";
+  write_report(next, report);  // whatever can fail for want of space fails here
+  move(path_, *aside_);
+  move(next, path_);
+  aside_.reset();
+}
+
+}  // namespace vsglbench

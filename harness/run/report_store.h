@@ -1,0 +1,35 @@
+// The report.json of an output folder: resumed, saved, and never lost.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "report/report.h"
+
+namespace vsglbench {
+
+// One run's hold on an output folder. What an earlier run left there is moved aside when the first new report
+// is safely on the disk: a complete one to report.previous.json, one of an interrupted run that is not gone
+// on with to report.incomplete.json, a damaged one to report.damaged.json.
+class ReportStore {
+ public:
+  // Creates the folder. Throws Error(output) when it can't be written to, or another run is writing there.
+  explicit ReportStore(const std::filesystem::path& folder);
+  ~ReportStore();
+  ReportStore(const ReportStore&) = delete;
+  ReportStore& operator=(const ReportStore&) = delete;
+
+  // What to go on with: the report of an interrupted run of the same experiment, program and device; else
+  // `fresh`, and always so with `anew`.
+  Report open(const Report& fresh, bool anew);
+  // Throws Error(output); then the earlier report stands where it stood.
+  void save(const Report& report);
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path folder_, path_;
+  std::optional<std::filesystem::path> aside_;  // where the earlier report goes at the next save
+  int lock_ = -1;
+};
+
+}  // namespace vsglbench

@@ -1,0 +1,246 @@
+// Small runs on the device: what they write, and how they go on.
+#include "run/runner.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "run/run_fixture.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+class RunTest : public RunFixture {
+ protected:
+  RunOutcome run(const std::string& only = "", bool force = false) {
+    RunOptions options;
+    options.config = write_config();
+    options.out = out_;
+    options.only = only;
+    options.force = force;
+    options.argv = {"vsglbench", "run"};
+    return run_config(options);
+  }
+  Report report() const { return read_report(out_ / "report.json"); }
+};
+
+const CaseResult& find(const Report& report, const std::string& id) {
+  for (const auto& c : report.cases) {
+    if (c.id == id) return c;
+  }
+  throw std::out_of_range(id);
+}
+
+void expect_passes(const CaseResult& c, bool has_importance) {
+  std::vector<std::string> names;
+  for (const auto& pass : c.passes) {
+    names.push_back(pass.name);
+    EXPECT_EQ(pass.ms.samples.size(), c.frame->span.samples.size()) << c.id << ' ' << pass.name;
+  }
+  const auto has = [&](const std::string& prefix) {
+    return std::any_of(names.begin(), names.end(), [&](const auto& n) { return n.starts_with(prefix); });
+  };
+  for (const char* name : {"gbuffer", "rsm", "generate.rsm.", "shade"})
+    EXPECT_TRUE(has(name)) << c.id << ' ' << name;
+  EXPECT_EQ(has("importance."), has_importance) << c.id;
+  EXPECT_EQ(has("generate.gbuffer."), has_importance) << c.id;
+}
+
+TEST_F(RunTest, WritesAReportThatHoldsEverything) {
+  config_["methods"] = {
+      {{"method", "vpl"}}, {{"method", "fis"}}, {{"method", "mfis"}}, {{"method", "all-texels"}}};
+  const RunOutcome outcome = run();
+  EXPECT_EQ(outcome.exit_code, 0);
+  expect_sound(out_ / "report.json");
+  const Report r = report();
+  EXPECT_TRUE(r.complete);
+  ASSERT_EQ(r.cases.size(), 4u);
+  for (const auto& c : r.cases) {
+    EXPECT_EQ(c.status, Status::ok) << c.id;
+    for (const MetricResult* m : {&c.accuracy->smape, &c.accuracy->rmse, &c.accuracy->bias}) {
+      ASSERT_TRUE(m->value.has_value());
+      EXPECT_TRUE(std::isfinite(*m->value));
+    }
+    EXPECT_EQ(c.health->nan + c.health->inf, 0u);
+    EXPECT_EQ(c.seeds.size(), c.method == "all-texels" ? 1u : 2u);
+    EXPECT_EQ(c.generate->lights, c.method == "all-texels" ? 256u : 16u);
+    EXPECT_GT(c.generate->shaders, 0u);
+    EXPECT_GT(c.frame->span.median, 0);
+    EXPECT_EQ(c.stopping->frames, 2u);
+    expect_passes(c, c.method != "all-texels");
+  }
+  ASSERT_TRUE(r.aa.has_value());
+  EXPECT_EQ(r.aa->case_id, r.cases.front().id);
+  EXPECT_GT(r.aa->ratio.value, 0);
+  EXPECT_EQ(r.scenes.at(0).triangles, 30u);
+}
+
+TEST_F(RunTest, WritesImagesThatCanBeRead) {
+  run();
+  const Report r = report();
+  const CaseResult& c = r.cases.at(0);
+  for (const char* kind : {"indirect", "reference", "error"}) {
+    const fs::path exr = out_ / c.images.at(kind);
+    EXPECT_EQ(read_exr(exr).width, 32u) << exr;
+    EXPECT_EQ(read_exr(exr).height, 18u) << exr;
+    const Bitmap preview = read_png(fs::path(exr).replace_extension(".png"));
+    EXPECT_EQ(preview.width, 32u);
+    EXPECT_EQ(preview.height, 18u);
+  }
+  EXPECT_GT(read_png(out_ / r.scenes.at(0).contact).width, 400u);
+  EXPECT_EQ(read_exr(out_ / "images/cornell/direct.exr").width, 32u);
+}
+
+TEST_F(RunTest, WallTimeAddsUp) {
+  const WallTime wall = run().report.wall;
+  EXPECT_GT(wall.device_s, 0);
+  EXPECT_GT(wall.references_s, 0);
+  EXPECT_GT(wall.visibility_s, 0);
+  EXPECT_GT(wall.compilation_s, 0);
+  EXPECT_GE(wall.total_s, wall.device_s + wall.references_s + wall.visibility_s + wall.compilation_s);
+  EXPECT_GT(wall.overhead_ratio, 1);
+  EXPECT_EQ(report().wall.device_s, wall.device_s);
+}
+
+TEST_F(RunTest, ASecondRunKeepsTheEarlierReport) {
+  run();
+  const std::string before = read_text(out_ / "report.json");
+  run();
+  EXPECT_EQ(read_text(out_ / "report.previous.json"), before);
+  expect_sound(out_ / "report.json");
+}
+
+// As an interruption after the first of two scenes leaves it.
+TEST_F(RunTest, AnInterruptedRunGoesOn) {
+  config_["scenes"] = {"cornell", "ring514"};
+  run();
+  Report stopped = report();
+  const double kept = stopped.cases.at(0).frame->span.median, lost = stopped.cases.at(1).frame->span.median;
+  stopped.complete = false;
+  stopped.cases.pop_back();
+  stopped.scenes.pop_back();
+  write_report(out_ / "report.json", stopped);
+  EXPECT_EQ(run().exit_code, 0);
+  const Report resumed = report();
+  EXPECT_TRUE(resumed.complete);
+  ASSERT_EQ(resumed.cases.size(), 2u);
+  ASSERT_EQ(resumed.scenes.size(), 2u);
+  EXPECT_EQ(resumed.created, stopped.created);
+  EXPECT_EQ(resumed.cases[0].frame->span.median, kept);
+  EXPECT_NE(resumed.cases[1].frame->span.median, lost);
+  EXPECT_EQ(resumed.aa->case_id, stopped.aa->case_id);
+  EXPECT_GT(resumed.wall.total_s, stopped.wall.total_s);
+  EXPECT_FALSE(fs::exists(out_ / "report.previous.json"));
+}
+
+TEST_F(RunTest, ForceAndAnotherExperimentStartAnewAndLoseNothing) {
+  run();
+  const std::string complete = read_text(out_ / "report.json");
+  run();  // the complete one moves to report.previous.json
+  Report stopped = report();
+  stopped.complete = false;
+  const double measured = stopped.cases.at(0).frame->span.median;
+  write_report(out_ / "report.json", stopped);
+  run("", true);
+  EXPECT_NE(report().cases.at(0).frame->span.median, measured);
+  EXPECT_EQ(read_report(out_ / "report.incomplete.json").cases.at(0).frame->span.median, measured);
+  EXPECT_EQ(read_text(out_ / "report.previous.json"), complete);
+
+  write_report(out_ / "report.json", stopped);
+  config_["rsm"] = 8;
+  run();
+  EXPECT_EQ(report().cases.size(), 1u);
+  EXPECT_EQ(report().cases.at(0).parameters.at("rsm"), 8);
+}
+
+TEST_F(RunTest, ADamagedReportIsKeptAside) {
+  write_text(out_ / "report.json", "{\"schema\": \"vsgl");
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(read_text(out_ / "report.damaged.json"), "{\"schema\": \"vsgl");
+}
+
+TEST_F(RunTest, OnlyTakesAGlobOverIds) {
+  config_["methods"] = {{{"method", "vpl"}, {"N", {4, 8}}}, {{"method", "fis"}}};
+  run("*/vpl/N=8,*");
+  ASSERT_EQ(report().cases.size(), 1u);
+  EXPECT_EQ(report().cases[0].id, "cornell/vpl/N=8,rsm=16,vis=exact");
+  EXPECT_THROW(run("nothing*"), Error);
+}
+
+// The twin of the A/A pair is one of a case that can be measured; the failed ones are failed, the rest is
+// not.
+TEST_F(RunTest, ImpossibleNumbersOfLightsFailTheirCasesOnly) {
+  config_["methods"] = {{{"method", "vpl"}, {"N", {0, 8, 256, 257}}}};
+  const RunOutcome outcome = run();
+  EXPECT_EQ(outcome.exit_code, 1);
+  const Report r = report();
+  expect_sound(out_ / "report.json");
+  EXPECT_EQ(find(r, "cornell/vpl/N=0,rsm=16,vis=exact").status, Status::failed);
+  EXPECT_EQ(find(r, "cornell/vpl/N=257,rsm=16,vis=exact").status, Status::failed);
+  EXPECT_TRUE(contains(find(r, "cornell/vpl/N=257,rsm=16,vis=exact").error->message, "use 1 … 256"));
+  EXPECT_EQ(find(r, "cornell/vpl/N=256,rsm=16,vis=exact").status, Status::ok);
+  EXPECT_EQ(r.aa->case_id, "cornell/vpl/N=8,rsm=16,vis=exact");
+}
+
+TEST_F(RunTest, VisibilitiesHaveTheirOwnReferences) {
+  config_["visibility"] = {"exact", "none", "ism"};
+  EXPECT_EQ(run().exit_code, 0);
+  const Report r = report();
+  const auto hash = [&](const char* vis) {
+    return find(r, fmt::format("cornell/vpl/N=16,rsm=16,vis={}", vis)).accuracy->reference.hash;
+  };
+  EXPECT_EQ(hash("exact"), hash("ism"));
+  EXPECT_NE(hash("exact"), hash("none"));
+}
+
+TEST_F(RunTest, TheSmallestSizesRun) {
+  config_["methods"] = {
+      {{"method", "vpl"}}, {{"method", "fis"}}, {{"method", "mfis"}}, {{"method", "all-texels"}}};
+  config_["N"] = 1;
+  for (const auto& [width, height, rsm] : {std::tuple{1, 1, 16}, std::tuple{7, 5, 1}, std::tuple{7, 5, 3}}) {
+    config_["frame"] = {{"width", width}, {"height", height}};
+    config_["rsm"] = rsm;
+    const RunOutcome outcome = run();
+    for (const auto& c : outcome.report.cases) {
+      EXPECT_EQ(c.status, Status::ok) << c.id << ": " << (c.error ? c.error->message : "");
+    }
+    expect_sound(out_ / "report.json");
+  }
+}
+
+TEST_F(RunTest, ASceneByPathCannotWriteElsewhere) {
+  config_["scenes"] = {write_scene("deep", square_scene(), box_gltf().dump())};
+  EXPECT_EQ(run().exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    const std::string path = entry.path().string();
+    const bool outside = !path.starts_with(out_.string());
+    EXPECT_FALSE(outside && entry.path().extension() == ".exr") << path;
+  }
+  const Report r = report();
+  EXPECT_TRUE(r.cases.at(0).images.at("indirect").starts_with("images/_"))
+      << r.cases.at(0).images.at("indirect");
+  EXPECT_TRUE(fs::exists(out_ / r.cases.at(0).images.at("indirect")));
+}
+
+TEST_F(RunTest, AnotherRunInTheSameFolderIsRefused) {
+  fs::create_directories(out_);
+  const int lock = ::open(out_.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  try {
+    run();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& e) {
+    EXPECT_TRUE(contains(e.what(), "another run is writing there"));
+  }
+  ::close(lock);
+}
+
+}  // namespace
+}  // namespace vsglbench

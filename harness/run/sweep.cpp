@@ -1,0 +1,235 @@
+#include "run/sweep.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/error.h"
+#include "base/nearest.h"
+
+namespace vsglbench {
+namespace {
+
+constexpr size_t kMaxCases = 100000;
+constexpr int64_t kMaxCount = 1 << 30, kMaxRsm = 16384;
+
+// One list of a sweep: its key, values, and where they stand in the file.
+struct Axis {
+  std::string key, at;
+  Json values;
+  bool named = false;  // part of the case's id
+};
+
+std::vector<std::string> case_keys() {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : case_defaults().items()) keys.push_back(key);
+  return keys;
+}
+
+bool always_named(const std::string& key) { return key == "N" || key == "rsm" || key == "visibility"; }
+
+// "vis=exact": short, since it becomes part of a file's name.
+std::string name_of(const std::string& key, const Json& value) {
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  const std::string short_key = key == "visibility" ? "vis" : key == "importance_lights" ? "importance" : key;
+  return fmt::format("{}={}", short_key, text);
+}
+
+// Equal for equal parameters, whichever way their numbers are written.
+std::string fingerprint(const Case& c) {
+  std::string out = fmt::format("{}\n{}", c.scene, c.method);
+  for (const auto& [key, value] : c.parameters.items()) {
+    out += fmt::format("\n{}={}", key,
+                       value.is_number() ? fmt::format("{}", value.get<double>()) : value.dump());
+  }
+  return out;
+}
+
+// One entry of `methods`, checked.
+class Entry {
+ public:
+  Entry(const JsonDocument& doc, size_t index)
+      : doc_(doc),
+        json_(doc.root().at("methods").at(index)),
+        at_(fmt::format("/methods/{}", index)),
+        method_(find()) {
+    check_keys();
+    add_axes();
+  }
+
+  // Every combination of the lists, for one scene.
+  void expand(const std::string& scene, const FrameParameters& base, std::vector<Case>* out) const {
+    std::vector<size_t> index(axes_.size(), 0);
+    for (;;) {
+      if (out->size() == kMaxCases) throw doc_.error(at_, fmt::format("makes more than {} cases", kMaxCases));
+      out->push_back(make_case(scene, base, index));
+      size_t i = axes_.size();
+      while (i > 0 && ++index[i - 1] == axes_[i - 1].values.size()) index[--i] = 0;
+      if (i == 0) return;
+    }
+  }
+
+  const std::string& at() const { return at_; }
+
+ private:
+  const MethodInfo& find() const {
+    const Json& name = json_.at("method");
+    if (!name.is_string()) throw doc_.error(at_ + "/method", "must be the name of a method");
+    try {
+      return find_method(name.get<std::string>());
+    } catch (const Error& e) {
+      throw doc_.error(at_ + "/method", e.what());
+    }
+  }
+
+  void check_keys() const {
+    std::vector<std::string> known = case_keys();
+    known.push_back("method");
+    for (const auto& parameter : method_.parameters) known.push_back(parameter.name);
+    for (const auto& [key, value] : json_.items()) {
+      const std::string at = at_ + "/" + pointer_token(key);
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        throw doc_.error(at,
+                         fmt::format("unknown key '{}' for {}{}", key, method_.name, suggestion(key, known)));
+      }
+      if (key == "N" && !method_.takes_light_count) {
+        throw doc_.error(at, fmt::format("is not read: {} makes a light of every texel", method_.name));
+      }
+      if (value.is_array() && value.empty()) throw doc_.error(at, "is an empty list: it would make no case");
+    }
+  }
+
+  void add_axes() {
+    for (const auto& key : case_keys()) {
+      if (key != "N" || method_.takes_light_count) add_axis(key, true);
+    }
+    for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
+  }
+
+  // From the entry, else from the config's own lists, else the default.
+  void add_axis(const std::string& key, bool of_every_case) {
+    const Json& root = doc_.root();
+    Axis axis{key, "", {}, always_named(key)};
+    const Json* value = nullptr;
+    if (json_.contains(key)) {
+      value = &json_.at(key);
+      axis.at = at_ + "/" + pointer_token(key);
+      axis.named = true;
+    } else if (of_every_case) {
+      value = root.contains(key) ? &root.at(key) : &case_defaults().at(key);
+      axis.at = "/" + key;
+    } else {
+      return;
+    }
+    axis.values = value->is_array() ? *value : Json::array({*value});
+    axis.named = axis.named || axis.values.size() > 1;
+    axes_.push_back(std::move(axis));
+  }
+
+  Case make_case(const std::string& scene, const FrameParameters& base,
+                 const std::vector<size_t>& index) const {
+    Case c;
+    c.scene = scene;
+    c.method = method_.name;
+    c.frame = base;
+    std::string names;
+    Json own = Json::object();
+    for (size_t i = 0; i < axes_.size(); ++i) {
+      const Axis& axis = axes_[i];
+      const Json& value = axis.values.at(index[i]);
+      if (!set(axis, value, &c.frame)) own[axis.key] = value;
+      if (axis.named) names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(axis.key, value));
+    }
+    try {
+      c.method_parameters = resolve_parameters(method_, own);
+    } catch (const Error& e) {
+      throw doc_.error(at_, e.what());
+    }
+    c.id = fmt::format("{}/{}/{}", scene, method_.name, names);
+    c.parameters = resolved(c);
+    return c;
+  }
+
+  // Whether the key is one that every case has; then its value is in `frame`.
+  bool set(const Axis& axis, const Json& value, FrameParameters* frame) const {
+    if (axis.key == "N") {
+      frame->lights = count(axis, value, 0, kMaxCount);
+    } else if (axis.key == "rsm") {
+      frame->rsm = count(axis, value, 1, kMaxRsm);
+    } else if (axis.key == "importance_lights") {
+      frame->importance_lights = count(axis, value, 1, kMaxCount);
+    } else if (axis.key == "visibility") {
+      frame->visibility = visibility(axis, value);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  uint32_t count(const Axis& axis, const Json& value, int64_t minimum, int64_t maximum) const {
+    const bool good = value.is_number_integer() && value.get<double>() >= static_cast<double>(minimum) &&
+                      value.get<double>() <= static_cast<double>(maximum);
+    if (!good)
+      throw doc_.error(axis.at,
+                       fmt::format("{} must be an integer within {} … {}", value.dump(), minimum, maximum));
+    return value.get<uint32_t>();
+  }
+
+  Visibility visibility(const Axis& axis, const Json& value) const {
+    try {
+      return parse_visibility(value.is_string() ? value.get<std::string>() : value.dump());
+    } catch (const Error& e) {
+      throw doc_.error(axis.at, e.what());
+    }
+  }
+
+  Json resolved(const Case& c) const {
+    Json p = Json::object();
+    if (method_.takes_light_count) p["N"] = c.frame.lights;
+    p["rsm"] = c.frame.rsm;
+    p["width"] = c.frame.width;
+    p["height"] = c.frame.height;
+    p["importance_lights"] = c.frame.importance_lights;
+    p["visibility"] = visibility_name(c.frame.visibility);
+    if (c.frame.visibility == Visibility::ism)
+      p["ism"] = {{"size", c.frame.ism.size}, {"points", c.frame.ism.points}};
+    for (const auto& [key, value] : c.method_parameters.items()) p[key] = value;
+    return p;
+  }
+
+  const JsonDocument& doc_;
+  const Json& json_;
+  std::string at_;
+  const MethodInfo& method_;
+  std::vector<Axis> axes_;
+};
+
+}  // namespace
+
+const Json& case_defaults() {
+  static const Json defaults = {
+      {"N", 256}, {"rsm", 256}, {"importance_lights", 2048}, {"visibility", "exact"}};
+  return defaults;
+}
+
+std::vector<Case> expand_cases(const JsonDocument& doc, const FrameParameters& base) {
+  std::vector<Entry> entries;
+  for (size_t i = 0; i < doc.root().at("methods").size(); ++i) entries.emplace_back(doc, i);
+  std::vector<Case> cases;
+  std::map<std::string, std::string> ids;  // by fingerprint
+  for (const auto& scene : doc.root().at("scenes")) {
+    for (const Entry& entry : entries) {
+      size_t next = cases.size();
+      entry.expand(scene.get<std::string>(), base, &cases);
+      for (; next < cases.size(); ++next) {
+        const Case& c = cases[next];
+        const auto [same, fresh] = ids.emplace(fingerprint(c), c.id);
+        if (fresh) continue;
+        const std::string as = same->second == c.id ? "" : fmt::format(", first as {}", same->second);
+        throw doc.error(entry.at(), fmt::format("the case {} comes twice{}", c.id, as));
+      }
+    }
+  }
+  return cases;
+}
+
+}  // namespace vsglbench
