@@ -45,6 +45,7 @@ double overhead_ratio() {
   options.config = config_path("quick");
   options.only = "cornell/*";
   options.out = out;
+  options.argv = {"vsglbench-speed"};
   const double ratio = run_config(options).report.wall.overhead_ratio;
   std::filesystem::remove_all(out);
   return ratio;

@@ -67,7 +67,7 @@ Brdf::Brdf(const Surface& surface, const glm::vec3& to_viewer)
   diffuse_probability_ = specular > 0 ? diffuse / (diffuse + specular) : 1;
 }
 
-float Brdf::ndf(float nh, float sin2) const {
+inline float Brdf::ndf(float nh, float sin2) const {
   // (n.h)^2 (a^2 - 1) + 1 = a^2 (n.h)^2 + |n x h|^2
   if (ndf_ > 0) return normalization_ / square(alpha2_ * nh * nh + sin2);
   // (n.h)^e = exp(e/2 log(1 - |n x h|^2)), and log(1 - x) <= -x.
@@ -76,7 +76,7 @@ float Brdf::ndf(float nh, float sin2) const {
   return normalization_ * std::exp(half_exponent * log_one_minus(sin2));
 }
 
-Brdf::Half Brdf::half_vector(const glm::vec3& l) const {
+inline Brdf::Half Brdf::half_vector(const glm::vec3& l) const {
   const glm::vec3 sum = l + v_;
   const float length2 = glm::dot(sum, sum);
   if (!(length2 > 1e-12f)) return {};
@@ -89,7 +89,7 @@ Brdf::Half Brdf::half_vector(const glm::vec3& l) const {
   return half;
 }
 
-float Brdf::microfacet_pdf(const Half& half) const {
+inline float Brdf::microfacet_pdf(const Half& half) const {
   return half.d > 0 && half.vh > 0 ? half.d * half.nh / (4 * half.vh) : 0;
 }
 
@@ -109,22 +109,25 @@ float Brdf::pdf(const glm::vec3& l) const {
   return diffuse + (1 - diffuse_probability_) * microfacet_pdf(half_vector(l));
 }
 
-std::optional<glm::vec3> Brdf::sample(const glm::vec3& random) const {
+bool Brdf::sample(const glm::vec3& random, glm::vec3* direction) const {
   const float angle = 2 * kPi * random.y, u = random.x;
   glm::vec3 x, y;
   tangent_frame(n_, &x, &y);
   const glm::vec3 around = std::cos(angle) * x + std::sin(angle) * y;
 
   // Cosine-weighted hemisphere.
-  if (random.z < diffuse_probability_) return std::sqrt(u) * around + std::sqrt(1 - u) * n_;
+  if (random.z < diffuse_probability_) {
+    *direction = std::sqrt(u) * around + std::sqrt(1 - u) * n_;
+    return true;
+  }
 
   // Half vector with density D(h) n.h: sin^2 from u without 1 - cos^2.
-  const float sin2 = ndf_ > 0 ? alpha2_ * u / (1 - u + alpha2_ * u)       // tan^2 = a^2 u / (1 - u)
+  const float sin2 = ndf_ > 0 ? alpha2_ * u / (1 - u + alpha2_ * u)         // tan^2 = a^2 u / (1 - u)
                               : one_minus_exp(-std::log(1 - u) * alpha2_);  // cos = (1 - u)^(1/(e+2))
   const glm::vec3 h = std::sqrt(sin2) * around + std::sqrt(std::max(0.0f, 1 - sin2)) * n_;
   const float vh = glm::dot(v_, h);
-  if (!(vh > 0)) return std::nullopt;
-  return glm::normalize(2 * vh * h - v_);
+  *direction = glm::normalize(2 * vh * h - v_);
+  return vh > 0;
 }
 
 }  // namespace vsglbench

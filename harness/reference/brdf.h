@@ -10,7 +10,6 @@
 
 #include <glm/glm.hpp>
 #include <numbers>
-#include <optional>
 
 #include "scene/surface.h"
 
@@ -43,10 +42,10 @@ class Brdf {
   // A direction with density pdf(l): a cosine-weighted one with probability diffuse_probability(), else
   // the viewer mirrored at a half vector of density D(h) n.h. Nothing when that gives no direction (the
   // viewer is behind the microfacet). The direction may still fail f's conditions.
-  std::optional<glm::vec3> sample(const glm::vec3& random) const;
+  bool sample(const glm::vec3& random, glm::vec3* direction) const;
 
   // Density of sample() over the whole sphere, f's conditions aside. Integrates to 1 less the chance of
-  // sample() giving nothing.
+  // sample() failing.
   float pdf(const glm::vec3& l) const;
 
   float diffuse_probability() const { return diffuse_probability_; }
@@ -54,7 +53,8 @@ class Brdf {
   const glm::vec3& geometric_normal() const { return g_; }
   const glm::vec3& to_viewer() const { return v_; }
 
-  // A lobe of alpha below 1/4 (Phong: exponent above 30): so sharp that only sampling it finds its directions.
+  // A lobe of alpha below 1/4 (Phong: exponent above 30): so sharp that only sampling it finds its
+  // directions.
   bool is_sharp() const { return alpha2_ < 1.0f / 16 && f90_ > 0; }
   // Chance that sample() takes a sharp lobe.
   float sharpness() const { return is_sharp() ? 1 - diffuse_probability_ : 0; }
@@ -69,7 +69,7 @@ class Brdf {
   float microfacet_pdf(const Half& half) const;
 
   glm::vec3 n_{0, 0, 1}, g_{0, 0, 1}, v_{0, 0, 1};
-  glm::vec3 lambert_{0};     // Rd/pi
+  glm::vec3 lambert_{0};  // Rd/pi
   glm::vec3 f0_{0};
   float f90_ = 0;
   float ndf_ = 1;            // as Surface::ndf

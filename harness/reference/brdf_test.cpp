@@ -27,8 +27,8 @@ glm::vec3 direction(const Surface& s, double cosine, double angle) {
   glm::vec3 x, y;
   tangent_frame(s.normal, &x, &y);
   const double sine = std::sqrt(1 - cosine * cosine);
-  return glm::normalize(glm::vec3(glm::dvec3(x) * (sine * std::cos(angle)) + glm::dvec3(y) * (sine * std::sin(angle)) +
-                                  glm::dvec3(s.normal) * cosine));
+  return glm::normalize(glm::vec3(glm::dvec3(x) * (sine * std::cos(angle)) +
+                                  glm::dvec3(y) * (sine * std::sin(angle)) + glm::dvec3(s.normal) * cosine));
 }
 
 struct Lobe {
@@ -36,8 +36,9 @@ struct Lobe {
   float ndf;
 };
 std::vector<Lobe> lobes() {
-  return {{"ggx 1e-3", 1e-3f}, {"ggx 0.05", 0.05f}, {"ggx 0.3", 0.3f},    {"ggx 1", 1},
-          {"phong 1", -1},     {"phong 40", -40},   {"phong 1023", -1023}, {"phong 65535", -65535}, {"phong 1e7", -1e7f}};
+  return {{"ggx 1e-3", 1e-3f},   {"ggx 0.05", 0.05f},     {"ggx 0.3", 0.3f},
+          {"ggx 1", 1},          {"phong 1", -1},         {"phong 40", -40},
+          {"phong 1023", -1023}, {"phong 65535", -65535}, {"phong 1e7", -1e7f}};
 }
 
 // The model once more, in double and in the textbooks' forms where those keep their digits.
@@ -57,7 +58,9 @@ glm::dvec3 textbook(const Surface& s, const glm::vec3& v, const glm::vec3& l) {
     a2 = 2 / (e + 2);
     d = (e + 2) / (2 * kPi) * std::pow(nh, e);
   }
-  const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1 + a2 * (1 - c * c) / (c * c)) - 1); };  // Heitz 2014
+  const auto lambda = [&](double c) {
+    return 0.5 * (std::sqrt(1 + a2 * (1 - c * c) / (c * c)) - 1);
+  };  // Heitz 2014
   const double g = 1 / (1 + lambda(nl) + lambda(nv));
   const glm::dvec3 f0(s.f0);
   const double f90 = std::min(1.0, 50 * std::max(f0.x, std::max(f0.y, f0.z)));
@@ -77,10 +80,12 @@ TEST(Brdf, MatchesTheTextbookFormsInDouble) {
       const glm::vec3 l = glm::normalize(2 * glm::dot(v, h) * h - v);
       const glm::dvec3 want = textbook(s, v, l);
       const glm::vec3 got = Brdf(s, v).f(l);
-      // Near grazing n.l keeps few digits. fp32 directions err by 1e-7 of a radian: about 1e-7/width of the lobe.
+      // Near grazing n.l keeps few digits. fp32 directions err by 1e-7 of a radian: about 1e-7/width of the
+      // lobe.
       if (glm::dot(s.normal, l) < 0.02) continue;
       const double tolerance = 1e-4 + 5e-6 / width;
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], want[c], tolerance * want[c]) << lobe.name << " sample " << i;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(got[c], want[c], tolerance * want[c]) << lobe.name << " sample " << i;
     }
   }
 }
@@ -90,7 +95,8 @@ TEST(Brdf, IsReciprocal) {
     const Surface s = make_surface(lobe.ndf, {0.3f, 0.5f, 0.2f}, {0.04f, 0.2f, 0.9f});
     for (int i = 0; i < 200; ++i) {
       const glm::vec4 r = random4(9, Stream::light, 0, uint32_t(i));
-      const glm::vec3 a = direction(s, 0.05 + 0.9 * r.x, 6.28 * r.y), b = direction(s, 0.05 + 0.9 * r.z, 6.28 * r.w);
+      const glm::vec3 a = direction(s, 0.05 + 0.9 * r.x, 6.28 * r.y),
+                      b = direction(s, 0.05 + 0.9 * r.z, 6.28 * r.w);
       const glm::vec3 ab = Brdf(s, a).f(b), ba = Brdf(s, b).f(a);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(ab[c], ba[c], 1e-4f * ab[c]) << lobe.name;
     }
@@ -121,7 +127,8 @@ void expect_samples_follow_pdf(const Surface& s, const glm::vec3& v, const std::
   const glm::dvec3 axis(glm::normalize(2 * glm::dot(s.normal, v) * s.normal - v));
   glm::vec3 x, y;
   tangent_frame(glm::vec3(axis), &x, &y);
-  // Rings in angle about the mirror direction, geometric so that the sharp lobe and the rest are both resolved.
+  // Rings in angle about the mirror direction, geometric so that the sharp lobe and the rest are both
+  // resolved.
   const double least = std::min(0.05, 0.2 * width), ratio = std::pow(kPi / least, 1.0 / (rings - 1));
   const auto edge = [&](double i) { return i <= 0 ? 0.0 : least * std::pow(ratio, i - 1); };
   std::vector<double> want(rings * sectors, 0), got(rings * sectors, 0);
@@ -132,24 +139,27 @@ void expect_samples_follow_pdf(const Surface& s, const glm::vec3& v, const std::
     const double f = ring - std::floor(ring), theta = t0 + f * (t1 - t0);
     for (int j = 0; j < sectors * sub; ++j) {
       const double angle = 2 * kPi * (j + 0.5) / (sectors * sub);
-      const glm::dvec3 l = std::sin(theta) * (std::cos(angle) * glm::dvec3(x) + std::sin(angle) * glm::dvec3(y)) +
-                           std::cos(theta) * axis;
+      const glm::dvec3 l =
+          std::sin(theta) * (std::cos(angle) * glm::dvec3(x) + std::sin(angle) * glm::dvec3(y)) +
+          std::cos(theta) * axis;
       const double solid_angle = std::sin(theta) * (t1 - t0) / sub * 2 * kPi / (sectors * sub);
       want[i / sub * sectors + j / sub] += brdf.pdf(glm::vec3(l)) * solid_angle;
     }
   }
   double nothing = 0;
   for (int i = 0; i < n; ++i) {
-    const auto l = brdf.sample(glm::vec3(random4(11, Stream::receiver, 0, uint32_t(i))));
-    if (!l) {
+    glm::vec3 l;
+    if (!brdf.sample(glm::vec3(random4(11, Stream::receiver, 0, uint32_t(i))), &l)) {
       nothing += 1.0 / n;
       continue;
     }
-    const glm::dvec3 d(*l);
+    const glm::dvec3 d(l);
     const double theta = std::atan2(glm::length(glm::cross(axis, d)), glm::dot(axis, d));
     const double angle = std::atan2(glm::dot(d, glm::dvec3(y)), glm::dot(d, glm::dvec3(x)));
-    const int ring = theta < least ? 0 : std::min(rings - 1, 1 + int(std::log(theta / least) / std::log(ratio)));
-    const int sector = std::min(sectors - 1, int((angle < 0 ? angle + 2 * kPi : angle) / (2 * kPi) * sectors));
+    const int ring =
+        theta < least ? 0 : std::min(rings - 1, 1 + int(std::log(theta / least) / std::log(ratio)));
+    const int sector =
+        std::min(sectors - 1, int((angle < 0 ? angle + 2 * kPi : angle) / (2 * kPi) * sectors));
     got[ring * sectors + sector] += 1;
   }
   double total = 0, chi2 = 0;
@@ -160,8 +170,9 @@ void expect_samples_follow_pdf(const Surface& s, const glm::vec3& v, const std::
     // About -v the density has a pole, 1/(v.h), that the midpoints above don't resolve.
     const double theta = 0.5 * (edge(double(i / sectors)) + edge(double(i / sectors) + 1));
     const double angle = 2 * kPi * (double(i % sectors) + 0.5) / sectors;
-    const glm::dvec3 l = std::sin(theta) * (std::cos(angle) * glm::dvec3(x) + std::sin(angle) * glm::dvec3(y)) +
-                         std::cos(theta) * axis;
+    const glm::dvec3 l =
+        std::sin(theta) * (std::cos(angle) * glm::dvec3(x) + std::sin(angle) * glm::dvec3(y)) +
+        std::cos(theta) * axis;
     if (glm::dot(l, glm::dvec3(v)) < -0.7) continue;
     // 1 % of slack a cell for the quadrature and the fp32 directions, beside Poisson's own variance.
     const double expected = want[i] * n;
@@ -192,10 +203,10 @@ double albedo(const Surface& s, const glm::vec3& v) {
   double sum = 0;
   const Lattice lattice(n, {0x1000, 0x3000, 0x7000});
   for (uint32_t i = 0; i < n; ++i) {
-    const auto l = brdf.sample(lattice.point(i));
-    if (!l) continue;
-    const BrdfValue value = brdf.evaluate(*l);
-    if (value.pdf > 0) sum += value.f.x * glm::dot(s.normal, *l) / value.pdf;
+    glm::vec3 l;
+    if (!brdf.sample(lattice.point(i), &l)) continue;
+    const BrdfValue value = brdf.evaluate(l);
+    if (value.pdf > 0) sum += value.f.x * glm::dot(s.normal, l) / value.pdf;
   }
   return sum / n;
 }
@@ -228,9 +239,9 @@ TEST(Brdf, IsFiniteAtTheLimits) {
       }
     }
     for (const float u : {0.0f, 1 - 0x1p-24f}) {
-      const auto l = Brdf(s, direction(s, 0.5, 0)).sample({u, u, 1 - 0x1p-24f});
-      if (l) {
-        EXPECT_NEAR(glm::length(*l), 1, 1e-5) << lobe.name;
+      glm::vec3 l;
+      if (Brdf(s, direction(s, 0.5, 0)).sample({u, u, 1 - 0x1p-24f}, &l)) {
+        EXPECT_NEAR(glm::length(l), 1, 1e-5) << lobe.name;
       }
     }
   }

@@ -35,18 +35,11 @@ void store(const ReferenceResult& r, const ReferenceParameters& p) {
   layers.scalars = {{"mask", to_floats(r.mask)}};
   layers.attributes = {{"reference_hash", r.hash}};
   write_exr(cache_file(r.hash, ".exr"), layers);
-  const Json meta = {{"hash", r.hash},
-                     {"images", image_hash(r)},
-                     {"width", p.width},
-                     {"height", p.height},
-                     {"occlusion", p.occlusion},
-                     {"seed", p.seed},
-                     {"samples", r.samples},
-                     {"batches", r.batches},
-                     {"photons", r.photons},
-                     {"rays", r.rays},
-                     {"seconds", r.seconds},
-                     {"noise_floor_smape", r.noise_floor_smape}};
+  const Json meta = {
+      {"hash", r.hash},       {"images", image_hash(r)},  {"width", p.width},
+      {"height", p.height},   {"occlusion", p.occlusion}, {"seed", p.seed},
+      {"samples", r.samples}, {"batches", r.batches},     {"photons", r.photons},
+      {"rays", r.rays},       {"seconds", r.seconds},     {"noise_floor_smape", r.noise_floor_smape}};
   write_text(cache_file(r.hash, ".json"), meta.dump(1) + "\n");
 }
 
@@ -81,7 +74,8 @@ std::optional<ReferenceResult> load(const std::string& hash, const ReferencePara
   try {
     ReferenceResult r = parse(hash);
     if (r.mean.width == p.width && r.mean.height == p.height) return r;
-    log_warning("{}: of another size than its name says; computing the reference anew", cache_file(hash, ".exr").string());
+    log_warning("{}: of another size than its name says; computing the reference anew",
+                cache_file(hash, ".exr").string());
   } catch (const std::exception& e) {
     log_warning("cached reference {} is damaged ({}); computing it anew", hash, e.what());
   }

@@ -68,7 +68,8 @@ Footprint trace_footprint(const ImagePlane& camera, uint32_t width, uint32_t hei
   const auto pixels = static_cast<float>(width) * static_cast<float>(height);
   footprint.plane_tolerance = 0.5f / std::sqrt(facing * pixels) + rays.tracer().epsilon(surface.position);
   const glm::vec2 corner = glm::vec2(x, y) * size;
-  footprint.uv_density = pixels / coverage(footprint, hit->triangle, camera, corner, size, {x, y}, seed, rays);
+  footprint.uv_density =
+      pixels / coverage(footprint, hit->triangle, camera, corner, size, {x, y}, seed, rays);
   footprint.kernel = facing * std::abs(glm::dot(surface.geometric_normal, to_eye)) * footprint.uv_density;
   return footprint;
 }

@@ -26,7 +26,8 @@ struct Footprint {
   // Whether a point, with unit normal towards the eye, lies on the surface seen at the centre.
   bool same_surface(const glm::vec3& point, const glm::vec3& point_normal) const {
     const glm::vec3& normal = brdf.geometric_normal();
-    return std::abs(glm::dot(normal, point - position)) <= plane_tolerance && glm::dot(normal, point_normal) >= 0.9f;
+    return std::abs(glm::dot(normal, point - position)) <= plane_tolerance &&
+           glm::dot(normal, point_normal) >= 0.9f;
   }
 };
 

@@ -19,7 +19,8 @@ TEST(ImagePlane, AgreesWithView) {
                            camera_view(camera, 480, 272)}) {
     const ImagePlane plane(view);
     for (uint32_t i = 0; i < 1000; ++i) {
-      const glm::vec3 p = view.position + 3.0f * view.forward + 4.0f * (glm::vec3(random4(1, Stream::light, 0, i)) - 0.5f);
+      const glm::vec3 p =
+          view.position + 3.0f * view.forward + 4.0f * (glm::vec3(random4(1, Stream::light, 0, i)) - 0.5f);
       const glm::vec3 n = glm::normalize(glm::vec3(random4(2, Stream::light, 0, i)) - 0.5f);
       const auto uv = plane.project(p), want = view.project(p);
       if (!uv || !want) {
@@ -32,7 +33,8 @@ TEST(ImagePlane, AgreesWithView) {
       glm::vec3 origin, direction;
       view.ray(*want, &origin, &direction);
       EXPECT_LT(glm::distance(plane.origin(p), origin), 1e-5f);
-      const float density = plane.facing_density(direction, glm::distance(p, origin)) * std::abs(glm::dot(n, direction));
+      const float density =
+          plane.facing_density(direction, glm::distance(p, origin)) * std::abs(glm::dot(n, direction));
       EXPECT_NEAR(density, view.image_density(p, n), 1e-4 * density);
     }
   }

@@ -14,13 +14,15 @@ float sum_of(const LightGuide::Table& table) { return std::accumulate(table.begi
 // 3x3 tent; what one cell sends, its neighbours likely do.
 LightGuide::Table blurred(const LightGuide::Table& table) {
   LightGuide::Table result{};
-  for (uint32_t i = 0; i < result.size(); ++i) {
+  for (uint32_t i = 0; i < table.size(); ++i) {
+    if (table[i] == 0) continue;
     const glm::ivec2 at(LightGuide::column_row(i));
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const glm::vec2 to = glm::vec2(at + glm::ivec2(dx, dy));
+        const glm::ivec2 to = at + glm::ivec2(dx, dy);
         if (to.x < 0 || to.x >= kCells || to.y < 0 || to.y >= kCells) continue;
-        result[i] += table[LightGuide::cell(to / float(kCells))] * float((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16;
+        result[LightGuide::cell(glm::uvec2(to))] +=
+            table[i] * float((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16;
       }
     }
   }
@@ -44,8 +46,8 @@ LightGuide::LightGuide(uint32_t width, uint32_t height)
   for (Tile& tile : tiles_) build(uniform, &tile);
 }
 
-// `weights` of any positive sum: three quarters of the choices go by them, rounded so that the sums up to each
-// cell stay exact to one.
+// `weights` of any positive sum: three quarters of the choices go by them, rounded so that the sums up to
+// each cell stay exact to one.
 void LightGuide::build(const Table& weights, Tile* tile) {
   constexpr uint32_t merited = (1u << choice_bits) - cells * cells;
   const double scale = merited / double(sum_of(weights));

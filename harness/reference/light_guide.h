@@ -1,6 +1,7 @@
-// Where on the light's plane the x1 lie that light a tile of pixels: learned, then sampled from. Any such density
-// keeps the estimate unbiased, since a quarter of it is uniform; a good one spares the rays to x1 that face away
-// or hide (in the manner of Jensen 1995, "Importance Driven Path Tracing Using the Photon Map").
+// Where on the light's plane the x1 lie that light a tile of pixels: learned, then sampled from. Any such
+// density keeps the estimate unbiased, since a quarter of it is uniform; a good one spares the rays to x1
+// that face away or hide (in the manner of Jensen 1995, "Importance Driven Path Tracing Using the Photon
+// Map").
 #pragma once
 
 #include <array>
@@ -30,20 +31,25 @@ class LightGuide {
   void learn(uint32_t tile);
 
   // The cell that 32 uniform bits choose, with probability density/cells^2, in the cells' order.
-  uint32_t sample(uint32_t tile, uint32_t bits) const { return tiles_[tile].choices[bits >> (32 - choice_bits)]; }
+  uint32_t sample(uint32_t tile, uint32_t bits) const {
+    return tiles_[tile].choices[bits >> (32 - choice_bits)];
+  }
   // Mean 1 over the cells.
   float density(uint32_t tile, uint32_t cell) const {
     return tiles_[tile].counts[cell] * (1.0f / (1u << (choice_bits - 2 * cell_bits)));
   }
   // Cells are counted in Morton's order, so that stratified bits choose cells stratified over the plane.
+  static uint32_t cell(const glm::uvec2& column_row) {
+    return spread(column_row.x) | spread(column_row.y) << 1;
+  }
   static uint32_t cell(const glm::vec2& uv) {
-    const glm::uvec2 c = glm::min(glm::uvec2(uv * float(cells)), glm::uvec2(cells - 1));
-    return spread(c.x) | spread(c.y) << 1;
+    return cell(glm::min(glm::uvec2(uv * float(cells)), glm::uvec2(cells - 1)));
   }
   static glm::uvec2 column_row(uint32_t cell) { return {gather(cell), gather(cell >> 1)}; }
 
  private:
-  // A tile's density in whole numbers: each cell stands once, plus by its merit, in a list to draw from.
+  // A tile's density in whole numbers: each cell stands once, and more often by its merit, in a list to draw
+  // from.
   static constexpr uint32_t choice_bits = 2 * cell_bits + 2;
   struct Tile {
     Table learned{};

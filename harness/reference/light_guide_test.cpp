@@ -22,7 +22,8 @@ TEST(LightGuide, SamplesFollowItsDensityAndNoCellIsForgotten) {
     double sum = 0;
     for (uint32_t c = 0; c < kTable; ++c) {
       EXPECT_GE(guide.density(tile, c), 0.25f);
-      EXPECT_NEAR(hits[c] / n * kTable, guide.density(tile, c), 1e-3 * guide.density(tile, c)) << tile << " " << c;
+      EXPECT_NEAR(hits[c] / n * kTable, guide.density(tile, c), 1e-3 * guide.density(tile, c))
+          << tile << " " << c;
       sum += guide.density(tile, c);
     }
     EXPECT_NEAR(sum, kTable, 1e-2);
@@ -33,9 +34,10 @@ TEST(LightGuide, SamplesFollowItsDensityAndNoCellIsForgotten) {
 
 TEST(LightGuide, CellsAndColumnsAndRowsBelongTogether) {
   for (uint32_t c = 0; c < kTable; ++c) {
+    EXPECT_EQ(LightGuide::cell(LightGuide::column_row(c)), c);
     EXPECT_EQ(LightGuide::cell((glm::vec2(LightGuide::column_row(c)) + 0.5f) / float(kCells)), c);
   }
-  EXPECT_EQ(LightGuide::column_row(LightGuide::cell({1, 0})), glm::uvec2(kCells - 1, 0));
+  EXPECT_EQ(LightGuide::column_row(LightGuide::cell(glm::vec2(1, 0))), glm::uvec2(kCells - 1, 0));
 }
 
 TEST(LightGuide, IsUniformBeforeItLearns) {

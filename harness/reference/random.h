@@ -34,9 +34,9 @@ inline glm::vec4 random4(uint64_t seed, Stream stream, uint32_t batch, uint32_t 
   return {to_unit(b.x), to_unit(b.y), to_unit(b.z), to_unit(b.w)};
 }
 
-// A rank-1 lattice of n points in three dimensions, moved on the torus by `shift` (Cranley and Patterson 1976):
-// Fibonacci's (i/n, frac(i/phi)) and one more additive recurrence, frac(i/sqrt 2). In units of 2^-32, where
-// overflow is the torus.
+// A rank-1 lattice of n points in three dimensions, moved on the torus by `shift` (Cranley and Patterson
+// 1976): Fibonacci's (i/n, frac(i/phi)) and one more additive recurrence, frac(i/sqrt 2). In units of 2^-32,
+// where overflow is the torus.
 class Lattice {
  public:
   Lattice(uint32_t n, const glm::uvec3& shift)

@@ -1,7 +1,6 @@
 #include "reference/reference.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -19,6 +18,7 @@ namespace {
 // Raise it whenever the same parameters would give another image.
 constexpr uint32_t kAlgorithmVersion = 1;
 constexpr uint32_t kExploration = ~0u;  // the batch before the first, which only teaches the light guide
+constexpr uint32_t kLessons = 4;        // batches that teach it too
 constexpr uint32_t kPhotonChunk = 8192, kChunksARound = 64;
 
 using Clock = std::chrono::steady_clock;
@@ -29,8 +29,9 @@ double seconds_since(Clock::time_point start) {
 
 void check_parameters(const ReferenceParameters& p) {
   if (p.width == 0 || p.height == 0 || uint64_t(p.width) * p.height > (1u << 28)) {
-    throw fail(ErrorKind::config, "reference: a {}x{} image; both sides must be at least 1, and at most 2^28 pixels",
-               p.width, p.height);
+    throw fail(ErrorKind::config,
+               "reference: a {}x{} image; both sides must be at least 1, and at most 2^28 pixels", p.width,
+               p.height);
   }
   if (p.samples == 0 || p.samples > (1u << 24)) {
     throw fail(ErrorKind::config, "reference: {} samples a pixel; give 1 to 2^24", p.samples);
@@ -39,7 +40,8 @@ void check_parameters(const ReferenceParameters& p) {
     throw fail(ErrorKind::config, "reference: {} batches; give an even number, at least 2", p.batches);
   }
   if (!(p.photons_a_sample >= 0 && p.photons_a_sample <= 1024)) {
-    throw fail(ErrorKind::config, "reference: {} photons a sample; give 0 (automatic) to 1024", p.photons_a_sample);
+    throw fail(ErrorKind::config, "reference: {} photons a sample; give 0 (automatic) to 1024",
+               p.photons_a_sample);
   }
   if ((p.strategies & strategy_all) == 0 || p.strategies > strategy_all) {
     throw fail(ErrorKind::config, "reference: strategies {}; give a sum of 1, 2 and 4", p.strategies);
@@ -82,7 +84,7 @@ class Run {
   std::vector<RayStream> streams_;  // one a thread
   std::vector<Footprint> footprints_;
   Strategies strategies_;
-  std::vector<glm::vec3> estimate_;  // of this batch
+  std::vector<glm::vec3> estimate_;         // of this batch
   std::vector<std::vector<Splat>> splats_;  // of this round, one a chunk
   BatchAccumulator sums_;
   Progress progress_;
@@ -98,8 +100,7 @@ Run::Run(const Tracer& tracer, const ReferenceParameters& parameters, std::vecto
       estimate_(footprints_.size()),
       splats_(kChunksARound),
       sums_(parameters.width, parameters.height),
-      progress_("reference of " + tracer.scene().name,
-                uint64_t(parameters.batches) + 1) {
+      progress_("reference of " + tracer.scene().name, uint64_t(parameters.batches) + 1) {
   const unsigned threads = thread_count(parameters.threads);
   if (logs) logs->assign(threads, {});
   for (unsigned t = 0; t < threads; ++t) streams_.emplace_back(tracer, logs ? &(*logs)[t] : nullptr);
@@ -113,12 +114,12 @@ void Run::trace_pool(uint32_t batch) {
 
 void Run::choose_counts() {
   trace_pool(kExploration);
-  const std::optional<double> sharp = strategies_.sharp_share();
+  const std::optional<double> sharp = strategies_.aim_photons();
   if (!sharp) {
     throw fail(ErrorKind::case_failed, "{}: the light sees no surface; check its position and direction",
                tracer_.scene().name);
   }
-  counts_ = sample_counts(p_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp);
+  counts_ = sample_counts(p_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp / 4);
   strategies_.set_counts(counts_);
 }
 
@@ -175,7 +176,8 @@ void Run::accumulate(uint32_t batch) {
 void Run::check_finite(const Image& mean) const {
   const Health health = check_health(mean);
   if (health.finite()) return;
-  throw fail(ErrorKind::case_failed, "{}: the reference has {} NaN and {} infinite pixels, the first at ({}, {})",
+  throw fail(ErrorKind::case_failed,
+             "{}: the reference has {} NaN and {} infinite pixels, the first at ({}, {})",
              tracer_.scene().name, health.nan, health.inf, health.first_bad->x, health.first_bad->y);
 }
 
@@ -187,7 +189,8 @@ ReferenceResult Run::result(uint32_t batches) const {
   r.half[1] = sums_.half(1, batches);
   check_finite(r.mean);
   r.mask.resize(footprints_.size());
-  std::transform(footprints_.begin(), footprints_.end(), r.mask.begin(), [](const Footprint& f) { return f.valid; });
+  std::transform(footprints_.begin(), footprints_.end(), r.mask.begin(),
+                 [](const Footprint& f) { return f.valid; });
   r.noise_floor_smape = measure_errors(r.half[0], r.half[1], r.mask).smape;
   r.batches = batches;
   r.samples = batches * std::max(counts_.light, counts_.receiver);
@@ -205,15 +208,14 @@ ReferenceResult Run::compute() {
   trace_footprints();
   gather(kExploration, true);
   learn_guide();
-  const uint32_t lessons = std::bit_floor(p_.batches - 1);  // the guide learns after 1, 2, 4 ... batches
   uint32_t batch = 0;
   while (batch < p_.batches) {
     trace_pool(batch);
-    gather(batch, batch < lessons);
+    gather(batch, batch < kLessons);
     emit(batch);
     accumulate(batch);
     ++batch;
-    if (std::has_single_bit(batch) && batch <= lessons) learn_guide();
+    if (batch == 1 || batch == kLessons) learn_guide();
     if (p_.time_limit > 0 && batch % 2 == 0 && seconds_since(start_) > p_.time_limit) break;
   }
   return result(batch);

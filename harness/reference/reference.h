@@ -26,24 +26,25 @@ struct ReferenceParameters {
   uint32_t width = 480, height = 272;
   uint32_t samples = 256;  // a pixel, of `light` and, at sharp BRDFs, of `receiver`; up to whole batches
   uint32_t batches = 16;   // independent estimates of the whole image; even, at least 2
-  // Photons of `emitter` per pixel and sample; 0: 1/32, and 1 times the share of them that would leave by a
-  // sharp lobe, which no other strategy follows.
+  // Photons of `emitter` per pixel and sample; 0: 1/32, and a quarter of the share of the light's flux
+  // that sharp lobes reflect, which no other strategy follows.
   float photons_a_sample = 0;
   uint64_t seed = 1;
   bool occlusion = true;  // false: nothing lies between x1 and x2 (light -> x1 and x2 -> eye stay tested)
   uint32_t strategies = strategy_all;
-  double time_limit = 0;  // seconds; > 0 may end after any even number of batches, so the result depends on the machine
-  unsigned threads = 0;   // 0: all; changes no bit of the result
+  double time_limit =
+      0;  // seconds; > 0 may end after any even number of batches, so the result depends on the machine
+  unsigned threads = 0;  // 0: all; changes no bit of the result
 };
 
 struct ReferenceResult {
-  Image mean;                // W/sr/m^2, indirect radiance at the pixel centres towards the eye
-  Image variance;            // of the mean, per pixel and channel, from the scatter of the batches
-  Image half[2];             // means of the even and of the odd batches
-  std::vector<uint8_t> mask;  // 1 where the camera sees a surface
+  Image mean;                    // W/sr/m^2, indirect radiance at the pixel centres towards the eye
+  Image variance;                // of the mean, per pixel and channel, from the scatter of the batches
+  Image half[2];                 // means of the even and of the odd batches
+  std::vector<uint8_t> mask;     // 1 where the camera sees a surface
   double noise_floor_smape = 0;  // of the halves against each other over the mask, `smape-0-200`
-  uint32_t samples = 0;      // a pixel, done
-  uint32_t batches = 0;      // done
+  uint32_t samples = 0;          // a pixel, done
+  uint32_t batches = 0;          // done
   uint64_t photons = 0, rays = 0;
   double seconds = 0;
   std::string hash;  // of the scene and of everything above that determines the image

@@ -10,8 +10,8 @@ namespace {
 
 RTCRayHit embree_ray(const LoggedRay& ray) {
   RTCRayHit r;
-  r.ray = {ray.origin.x,    ray.origin.y,    ray.origin.z, ray.start, ray.direction.x, ray.direction.y,
-           ray.direction.z, 0 /* time */,    ray.end,      ~0u,       0 /* id */,      0 /* flags */};
+  r.ray = {ray.origin.x,    ray.origin.y, ray.origin.z, ray.start, ray.direction.x, ray.direction.y,
+           ray.direction.z, 0 /* time */, ray.end,      ~0u,       0 /* id */,      0 /* flags */};
   r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return r;
 }

@@ -47,7 +47,8 @@ Strategies::Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t 
       occlusion_(occlusion),
       footprints_(footprints),
       pool_(size_t(pool_size) * pool_size),
-      guide_(width, height) {}
+      guide_(width, height),
+      photon_guide_(1, 1) {}
 
 Strategies::Emitter Strategies::make_emitter(const Hit& hit, const glm::vec2& uv, const glm::vec3& to_light,
                                              float distance) const {
@@ -57,7 +58,8 @@ Strategies::Emitter Strategies::make_emitter(const Hit& hit, const glm::vec2& uv
   x1.ray_origin = tracer_.offset(surface.position, surface.geometric_normal);
   const float c = -glm::dot(to_light, light_.view().forward);
   x1.flux = light_.view().perspective ? c * c * c : 1;  // as flux_density has it
-  x1.density = light_.facing_density(-to_light, distance) * std::abs(glm::dot(surface.geometric_normal, to_light));
+  x1.density =
+      light_.facing_density(-to_light, distance) * std::abs(glm::dot(surface.geometric_normal, to_light));
   x1.brdf = Brdf(surface, to_light);
   x1.cell = LightGuide::cell(uv);
   return x1;
@@ -78,14 +80,16 @@ void Strategies::trace_pool_row(uint32_t row, uint32_t batch, RayStream& rays) {
   }
 }
 
-std::optional<double> Strategies::sharp_share() const {
+std::optional<double> Strategies::aim_photons() {
   double sharp = 0, all = 0;
   for (const Emitter& x1 : pool_) {
     if (!(x1.density > 0)) continue;
     all += x1.flux;
     sharp += x1.flux * x1.brdf.sharpness();
+    photon_guide_.teach(0, x1.cell, x1.flux * x1.brdf.sharpness());
   }
   if (!(all > 0)) return std::nullopt;
+  photon_guide_.learn(0);
   return sharp / all;
 }
 
@@ -108,7 +112,8 @@ glm::vec3 Strategies::contribution(const Emitter& x1, const Receiver& x2) const 
   const float guide = guide_.density(x2.footprint->tile, x1.cell);
   const float light = static_cast<float>(counts_.light) * x1.density * guide;
   const float receiver = static_cast<float>(receiver_samples(*x2.footprint)) * f2.pdf * geometric1 * inverse2;
-  const float emitter = static_cast<float>(counts_.photons) * x1.density * f1.pdf * geometric2 * inverse2;
+  const float photons = static_cast<float>(counts_.photons) * photon_guide_.density(0, x1.cell);
+  const float emitter = photons * x1.density * f1.pdf * geometric2 * inverse2;
   const float sum = x2.kernel * (light + receiver) + emitter;
   if (!(sum > 0)) return glm::vec3(0);
   const float cosines = -glm::dot(brdf1.normal(), to_x1) * glm::dot(brdf2.normal(), to_x1);
@@ -138,11 +143,11 @@ glm::vec3 Strategies::connect_receiver(const Footprint& x2, const glm::vec3& dir
 }
 
 glm::vec3 Strategies::from_receiver(const Footprint& x2, const glm::vec3& random, RayStream& rays) const {
-  const auto direction = x2.brdf.sample(random);
-  if (!direction || !leaves(x2.brdf, *direction)) return glm::vec3(0);
+  glm::vec3 direction;
+  if (!x2.brdf.sample(random, &direction) || !leaves(x2.brdf, direction)) return glm::vec3(0);
   glm::vec3 sum(0);
-  for_hits(rays, x2.ray_origin, *direction, occlusion_,
-           [&](const Hit& hit) { sum += connect_receiver(x2, *direction, hit, rays); });
+  for_hits(rays, x2.ray_origin, direction, occlusion_,
+           [&](const Hit& hit) { sum += connect_receiver(x2, direction, hit, rays); });
   return sum;
 }
 
@@ -225,18 +230,22 @@ bool Strategies::land(const Emitter& x1, const glm::vec3& direction, const Hit& 
 
 void Strategies::emit(uint32_t first, uint32_t last, uint32_t batch, RayStream& rays,
                       std::vector<Splat>* splats) const {
-  const Lattice plane(counts_.photons, glm::uvec3(random_bits(seed_, Stream::photon_plane, batch, 0)));
+  const Lattice lattice(counts_.photons, glm::uvec3(random_bits(seed_, Stream::photon_plane, batch, 0)));
   for (uint32_t i = first; i < last; ++i) {
-    // x1: photons together are one stratified set over the light's plane.
-    const Emitter x1 = trace_emitter(glm::vec2(plane.point(i)), rays);
+    // x1: a cell of the photons' guide, a place in it.
+    const glm::uvec3 bits = lattice.bits(i);
+    const glm::vec2 cell(LightGuide::column_row(photon_guide_.sample(0, bits.x)));
+    const glm::vec2 place(to_unit(bits.y), to_unit(bits.z));
+    const Emitter x1 = trace_emitter((cell + place) / float(LightGuide::cells), rays);
     if (!(x1.density > 0)) continue;
 
     // x2, by its BRDF.
-    const auto direction = x1.brdf.sample(glm::vec3(random4(seed_, Stream::photon_direction, batch, i)));
-    if (!direction || !leaves(x1.brdf, *direction)) continue;
-    for_hits(rays, x1.ray_origin, *direction, occlusion_, [&](const Hit& hit) {
+    glm::vec3 direction;
+    const glm::vec3 random(random4(seed_, Stream::photon_direction, batch, i));
+    if (!x1.brdf.sample(random, &direction) || !leaves(x1.brdf, direction)) continue;
+    for_hits(rays, x1.ray_origin, direction, occlusion_, [&](const Hit& hit) {
       Splat splat;
-      if (land(x1, *direction, hit, rays, &splat)) splats->push_back(splat);
+      if (land(x1, direction, hit, rays, &splat)) splats->push_back(splat);
     });
   }
 }

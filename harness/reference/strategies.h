@@ -27,35 +27,35 @@ struct Splat {
 };
 
 // Every sample, whatever strategy found it, contributes f/sum(n_i p_i): the balance heuristic (Veach 1997,
-// §9.2.2). With all densities over the product of the image plane of the light, mapped onto x1, and of area at
-// x2, k the inverse of the footprint's area, and p_L = d(u,v)/dA at x1:
-//   f    = k Phi p_L f1 cos1 f2 cos2 / d^2       Phi the flux density over (u,v), cos1, cos2 of shading normals
-//   light    p = k p_L g        g the tile's LightGuide density
-//   receiver p = k p_brdf(x2 -> x1) cos_g1 / d^2
-//   emitter  p = p_L p_brdf(x1 -> x2) cos_g2 / d^2
+// §9.2.2). With all densities over the product of the image plane of the light, mapped onto x1, and of area
+// at x2, k the inverse of the footprint's area, and p_L = d(u,v)/dA at x1:
+//   f    = k Phi p_L f1 cos1 f2 cos2 / d^2       Phi the flux density over (u,v), cos1, cos2 of shading
+//   normals light    p = k p_L g        g the tile's LightGuide density receiver p = k p_brdf(x2 -> x1)
+//   cos_g1 / d^2 emitter  p = p_L g p_brdf(x1 -> x2) cos_g2 / d^2   with the photons' own g
 // `light` and `receiver` are exact at the pixel's centre; `emitter` averages over the pixel's footprint.
-// cos1 is of x1's shading normal, as for a virtual point light of that normal: the power it sends differs from
-// what a bump map on real relief would send, in the same way for every method measured here.
+// cos1 is of x1's shading normal, as for a virtual point light of that normal: the power it sends differs
+// from what a bump map on real relief would send, in the same way for every method measured here.
 class Strategies {
  public:
   Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t width, uint32_t height, uint64_t seed,
              bool occlusion, const std::vector<Footprint>& footprints);
 
-  // Row `row` of the pool of x1 that `light` draws from in this batch: pool_size^2 cells of the light's plane,
-  // each with one ray at a jittered place. The pool is small enough to stay in a core's cache.
+  // Row `row` of the pool of x1 that `light` draws from in this batch: pool_size^2 cells of the light's
+  // plane, each with one ray at a jittered place. The pool is small enough to stay in a core's cache.
   static constexpr uint32_t pool_bits = 6, pool_size = 1u << pool_bits;
   void trace_pool_row(uint32_t row, uint32_t batch, RayStream& rays);
 
-  // Of the pool's flux that meets a surface, the share that sharp lobes reflect; nothing if all rays miss.
-  std::optional<double> sharp_share() const;
+  // Aims photons at what the pool found of sharp lobes. Returns the share of photons, if spread evenly, that
+  // would leave by one; nothing if no ray of the pool meets a surface.
+  std::optional<double> aim_photons();
 
   // Must be set before anything below.
   void set_counts(const SampleCounts& counts) { counts_ = counts; }
 
   LightGuide& guide() { return guide_; }
 
-  // `light` and `receiver` for the pixels of one tile of the guide in one batch: writes each one's part of the
-  // radiance to estimate[pixel], 0 where there is no surface, and teaches the guide if asked to.
+  // `light` and `receiver` for the pixels of one tile of the guide in one batch: writes each one's part of
+  // the radiance to estimate[pixel], 0 where there is no surface, and teaches the guide if asked to.
   void gather(uint32_t tile, uint32_t batch, bool teach, RayStream& rays, glm::vec3* estimate);
 
   // `emitter`: photons [first, last) of one batch; appends their splats.
@@ -65,10 +65,10 @@ class Strategies {
   // x1: a surface as the light sees it. Two cache lines.
   struct alignas(64) Emitter {
     glm::vec3 position{0};
-    float density = 0;  // p_L, 1/m^2; 0: the light's ray met nothing
-    Brdf brdf;          // and the normals, towards the light
-    float flux = 0;     // over (u,v), relative to axis_flux_
-    uint32_t cell = 0;  // of the LightGuide
+    float density = 0;        // p_L, 1/m^2; 0: the light's ray met nothing
+    Brdf brdf;                // and the normals, towards the light
+    float flux = 0;           // over (u,v), relative to axis_flux_
+    uint32_t cell = 0;        // of the LightGuide
     glm::vec3 ray_origin{0};  // `position`, moved off the surface towards the light
   };
   // x2: a point of a pixel's footprint.
@@ -90,8 +90,10 @@ class Strategies {
   glm::vec3 contribution(const Emitter& x1, const Receiver& x2) const;
   glm::vec3 from_light(const Footprint& x2, const Emitter& x1, RayStream& rays) const;
   glm::vec3 from_receiver(const Footprint& x2, const glm::vec3& random, RayStream& rays) const;
-  glm::vec3 connect_receiver(const Footprint& x2, const glm::vec3& direction, const Hit& hit, RayStream& rays) const;
-  bool land(const Emitter& x1, const glm::vec3& direction, const Hit& hit, RayStream& rays, Splat* splat) const;
+  glm::vec3 connect_receiver(const Footprint& x2, const glm::vec3& direction, const Hit& hit,
+                             RayStream& rays) const;
+  bool land(const Emitter& x1, const glm::vec3& direction, const Hit& hit, RayStream& rays,
+            Splat* splat) const;
 
   const Tracer& tracer_;
   ImagePlane light_, camera_;
@@ -102,7 +104,8 @@ class Strategies {
   SampleCounts counts_;
   const std::vector<Footprint>& footprints_;
   std::vector<Emitter> pool_;
-  LightGuide guide_;
+  LightGuide guide_;         // of `light`
+  LightGuide photon_guide_;  // of `emitter`: one tile, whose flux x sharpness it follows
 };
 
 }  // namespace vsglbench

@@ -41,7 +41,8 @@ inline Mesh quad_mesh(const Quad& q) {
 }
 
 // Light and camera positions are given in the quads' own coordinates.
-inline Scene make_scene(const std::vector<Quad>& quads, std::vector<Material> materials, Light light, Camera camera) {
+inline Scene make_scene(const std::vector<Quad>& quads, std::vector<Material> materials, Light light,
+                        Camera camera) {
   Scene scene;
   scene.name = "quads";
   scene.materials = std::move(materials);
@@ -57,7 +58,8 @@ inline Scene make_scene(const std::vector<Quad>& quads, std::vector<Material> ma
   return scene;
 }
 
-inline Light spot(const glm::vec3& position, const glm::vec3& direction, float fov, const glm::vec3& up = {0, 0, 1}) {
+inline Light spot(const glm::vec3& position, const glm::vec3& direction, float fov,
+                  const glm::vec3& up = {0, 0, 1}) {
   Light light;
   light.position = position;
   light.direction = glm::normalize(direction);
@@ -94,9 +96,10 @@ inline Scene empty_box(const Material& floor = lambert({0.7f, 0.7f, 0.7f})) {
 inline Scene slab_box(const Material& slab = lambert({0.5f, 0.5f, 0.6f})) {
   std::vector<Quad> quads = box_quads();
   quads.push_back({{0.55, 0, 0.3}, {0.3, 0, 0.15}, {0, 0.5, 0}, 3});
-  return make_scene(quads, {lambert({0.7f, 0.7f, 0.7f}), lambert({0.6f, 0.1f, 0.1f}), lambert({0.1f, 0.5f, 0.1f}), slab},
-                    spot({0.5f, 0.95f, 0.6f}, {0.3f, -1, -0.3f}, 0.9f),
-                    camera_at({0.3f, 0.5f, 0.95f}, {0.5f, 0.4f, 0}, 1.0f));
+  return make_scene(
+      quads, {lambert({0.7f, 0.7f, 0.7f}), lambert({0.6f, 0.1f, 0.1f}), lambert({0.1f, 0.5f, 0.1f}), slab},
+      spot({0.5f, 0.95f, 0.6f}, {0.3f, -1, -0.3f}, 0.9f),
+      camera_at({0.3f, 0.5f, 0.95f}, {0.5f, 0.4f, 0}, 1.0f));
 }
 
 }  // namespace vsglbench::test

@@ -103,7 +103,8 @@ Tracer::Tracer(const Scene& scene, const std::string& device_config)
     groups_[i]->scene = &scene;
     groups_[i]->alpha_tested = i == 1;
   }
-  for (uint32_t t = 0; t < scene.triangles.size(); ++t) groups_[alpha_tested(scene, t)]->triangles.push_back(t);
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t)
+    groups_[alpha_tested(scene, t)]->triangles.push_back(t);
   all_opaque_ = groups_[1]->triangles.empty();
   for (auto& group : groups_) attach(*group);
   rtcCommitScene(handle());
@@ -149,7 +150,8 @@ std::optional<Hit> Tracer::intersect(const glm::vec3& origin, const glm::vec3& d
   rtcIntersect1(handle(), &context, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const uint32_t triangle = all_opaque_ ? r.hit.primID : groups_[r.hit.geomID]->triangles[r.hit.primID];
-  return Hit{r.ray.tfar, triangle, glm::vec2(r.hit.u, r.hit.v), glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z)};
+  return Hit{r.ray.tfar, triangle, glm::vec2(r.hit.u, r.hit.v),
+             glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z)};
 }
 
 bool Tracer::occluded(const glm::vec3& a, const glm::vec3& b) const {

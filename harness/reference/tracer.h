@@ -63,7 +63,6 @@ class Tracer {
   glm::vec3 offset(const glm::vec3& point, const glm::vec3& normal) const;
   float epsilon(const glm::vec3& point) const;
 
-
  private:
   struct Group;  // triangles of one Embree geometry: opaque, or tested against their alpha
   void attach(Group& group);
@@ -78,7 +77,7 @@ class Tracer {
   std::unique_ptr<RTCSceneTy, Release> rtc_;
   int native_width_ = 1;
   float least_extent_ = 0;
-  bool all_opaque_ = true;  // Embree's indices are the scene's
+  bool all_opaque_ = true;                        // Embree's indices are the scene's
   std::array<std::unique_ptr<Group>, 2> groups_;  // by Embree's geometry id: opaque, alpha-tested
 };
 

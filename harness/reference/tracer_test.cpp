@@ -28,9 +28,10 @@ TEST(Tracer, FindsTheClosestTriangle) {
 
 // A card with holes over a floor: base-colour alpha 0 in the left half, 1 in the right.
 Scene card() {
-  Scene scene = test::make_scene({{{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, 0}, {{-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, 1}},
-                                 {test::lambert({0.5f, 0.5f, 0.5f}), test::lambert({0.5f, 0.5f, 0.5f})},
-                                 test::spot({0, 3, 0}, {0, -1, 0}, 0.5f), test::camera_at({0, 3, 3}, {0, 0, 0}, 1));
+  Scene scene =
+      test::make_scene({{{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, 0}, {{-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, 1}},
+                       {test::lambert({0.5f, 0.5f, 0.5f}), test::lambert({0.5f, 0.5f, 0.5f})},
+                       test::spot({0, 3, 0}, {0, -1, 0}, 0.5f), test::camera_at({0, 3, 3}, {0, 0, 0}, 1));
   Texture texture;
   texture.width = texture.height = 64;
   for (int i = 0; i < 64 * 64; ++i) {
@@ -91,7 +92,8 @@ TEST(Tracer, PacketsAgreeWithSingleRaysOnEveryInstructionSet) {
 TEST(Tracer, OffsetLeavesTheSurfaceButNotTheScene) {
   for (const double scale : {1.0, 10.0, 100.0}) {
     for (const double shift : {0.0, 3.0}) {
-      Scene scene = test::make_scene({{glm::dvec3(-1, 0, -1) * scale, glm::dvec3(2, 0.7, 0.1) * scale, glm::dvec3(0.1, 0.3, 2) * scale, 0}},
+      Scene scene = test::make_scene({{glm::dvec3(-1, 0, -1) * scale, glm::dvec3(2, 0.7, 0.1) * scale,
+                                       glm::dvec3(0.1, 0.3, 2) * scale, 0}},
                                      {test::lambert({1, 1, 1})}, test::spot({0, 1, 0}, {0, -1, 0}, 1),
                                      test::camera_at({0, 1, 1}, {0, 0, 0}, 1));
       for (glm::vec3& p : scene.positions) p += float(shift * scale);
@@ -100,9 +102,10 @@ TEST(Tracer, OffsetLeavesTheSurfaceButNotTheScene) {
         const glm::vec4 r = random4(5, Stream::light, 0, i);
         const auto& t = scene.triangles[i % 2];
         const float su = std::sqrt(r.x), u = su * (1 - r.y), v = su * r.y;
-        const glm::vec3 p = scene.positions[t.x] * (1 - u - v) + scene.positions[t.y] * u + scene.positions[t.z] * v;
-        const glm::vec3 n = glm::normalize(
-            glm::cross(scene.positions[t.y] - scene.positions[t.x], scene.positions[t.z] - scene.positions[t.x]));
+        const glm::vec3 p =
+            scene.positions[t.x] * (1 - u - v) + scene.positions[t.y] * u + scene.positions[t.z] * v;
+        const glm::vec3 n = glm::normalize(glm::cross(scene.positions[t.y] - scene.positions[t.x],
+                                                      scene.positions[t.z] - scene.positions[t.x]));
         glm::vec3 to = glm::normalize(glm::vec3(random4(6, Stream::light, 0, i)) - 0.5f);
         const float side = glm::dot(to, n) < 0 ? -1 : 1;
         const glm::vec3 start = tracer.offset(p, side * n);

@@ -25,8 +25,8 @@ struct Band {
   size_t first_tile, last_tile;
 };
 
-Tile make_tile(const Tracer& tracer, std::span<const ReceiverPoint> receivers, uint32_t width, uint32_t height,
-               uint32_t x, uint32_t y) {
+Tile make_tile(const Tracer& tracer, std::span<const ReceiverPoint> receivers, uint32_t width,
+               uint32_t height, uint32_t x, uint32_t y) {
   Tile tile;
   tile.rows = std::min(kTile, height - y);
   tile.columns = std::min(kTile, width - x);
@@ -53,7 +53,8 @@ std::vector<Tile> make_tiles(const Tracer& tracer, std::span<const ReceiverPoint
   for (uint32_t band = 0; band < height; band += kBandRows) {
     const size_t first = tiles.size();
     for (uint32_t y = band; y < std::min(band + kBandRows, height); y += kTile) {
-      for (uint32_t x = 0; x < width; x += kTile) tiles.push_back(make_tile(tracer, receivers, width, height, x, y));
+      for (uint32_t x = 0; x < width; x += kTile)
+        tiles.push_back(make_tile(tracer, receivers, width, height, x, y));
     }
     bands->push_back({first, tiles.size()});
   }
@@ -89,7 +90,8 @@ uint64_t active_lanes(const SegmentPacket& packet) {
 }
 
 // Bits of one light over one band. Returns the rays traced.
-uint64_t trace_band(const Tracer& tracer, std::span<const Tile> tiles, const TargetPoint& target, uint32_t* words) {
+uint64_t trace_band(const Tracer& tracer, std::span<const Tile> tiles, const TargetPoint& target,
+                    uint32_t* words) {
   const float stop = target.stop_short + tracer.epsilon(target.position);
   uint64_t rays = 0;
   for (const Tile& tile : tiles) {
@@ -110,8 +112,9 @@ uint64_t trace_band(const Tracer& tracer, std::span<const Tile> tiles, const Tar
 
 }  // namespace
 
-VisibilityBits compute_visibility(const Tracer& tracer, std::span<const ReceiverPoint> receivers, uint32_t width,
-                                  uint32_t height, std::span<const TargetPoint> targets, unsigned threads) {
+VisibilityBits compute_visibility(const Tracer& tracer, std::span<const ReceiverPoint> receivers,
+                                  uint32_t width, uint32_t height, std::span<const TargetPoint> targets,
+                                  unsigned threads) {
   const auto start = std::chrono::steady_clock::now();
   VisibilityBits bits;
   bits.pixels = width * height;

@@ -28,7 +28,7 @@ struct TargetPoint {
 struct VisibilityBits {
   uint32_t pixels = 0, lights = 0, words_per_light = 0;
   std::vector<uint32_t> words;
-  uint64_t rays = 0;   // that were traced; a target behind the receiver's own face needs none
+  uint64_t rays = 0;  // that were traced; a target behind the receiver's own face needs none
   double seconds = 0;
 
   bool visible(uint32_t light, uint32_t pixel) const {

@@ -15,7 +15,8 @@ std::vector<ReceiverPoint> see(const Tracer& tracer, uint32_t width, uint32_t he
   std::vector<ReceiverPoint> receivers;
   for (uint32_t i = 0; i < width * height; ++i) {
     glm::vec3 origin, direction;
-    camera.view().ray((glm::vec2(i % width, i / width) + 0.5f) / glm::vec2(width, height), &origin, &direction);
+    camera.view().ray((glm::vec2(i % width, i / width) + 0.5f) / glm::vec2(width, height), &origin,
+                      &direction);
     const auto hit = tracer.intersect(origin, direction);
     if (!hit || i % 17 == 3) {  // some pixels without a surface
       receivers.push_back({});
@@ -44,7 +45,8 @@ TEST(Visibility, BitsEqualAScalarLoop) {
     targets.push_back({glm::vec3(r) - 0.5f, i % 3 == 0 ? 0.2f * r.w : 0});
   }
   // Sizes that fill neither tiles nor words.
-  for (const glm::uvec2 size : {glm::uvec2(61, 35), glm::uvec2(1, 1), glm::uvec2(33, 70), glm::uvec2(64, 64)}) {
+  for (const glm::uvec2 size :
+       {glm::uvec2(61, 35), glm::uvec2(1, 1), glm::uvec2(33, 70), glm::uvec2(64, 64)}) {
     const auto receivers = see(tracer, size.x, size.y);
     uint64_t different = 0, ones = 0;
     const auto bits = compute_visibility(tracer, receivers, size.x, size.y, targets, 2);
@@ -73,7 +75,8 @@ TEST(Visibility, ATargetOnASurfaceDoesNotHideItself) {
   const Scene scene = test::empty_box();
   const Tracer tracer(scene);
   const auto receivers = see(tracer, 48, 32);
-  const std::vector<TargetPoint> targets = {{{0.1f, -0.5f, 0.05f}, 0}, {{0.5f, 0.12f, -0.3f}, 0}, {{0.1f, -0.53f, 0}, 0.05f}};
+  const std::vector<TargetPoint> targets = {
+      {{0.1f, -0.5f, 0.05f}, 0}, {{0.5f, 0.12f, -0.3f}, 0}, {{0.1f, -0.53f, 0}, 0.05f}};
   const auto bits = compute_visibility(tracer, receivers, 48, 32, targets);
   for (uint32_t light = 0; light < 2; ++light) {
     for (uint32_t pixel = 0; pixel < receivers.size(); ++pixel) {
@@ -83,9 +86,11 @@ TEST(Visibility, ATargetOnASurfaceDoesNotHideItself) {
       EXPECT_EQ(bits.visible(light, pixel), height > 0) << light << " " << pixel;
     }
   }
-  // The third lies below the floor, as the mean of a curved cluster does: only stop_short shows it. Steep rays reach it.
+  // The third lies below the floor, as the mean of a curved cluster does: only stop_short shows it. Steep
+  // rays reach it.
   const ReceiverPoint above{{0.1f, 0.4f, 0}, {0, -1, 0}, true};
-  EXPECT_TRUE(compute_visibility(tracer, std::span(&above, 1), 1, 1, std::span(&targets[2], 1)).visible(0, 0));
+  EXPECT_TRUE(
+      compute_visibility(tracer, std::span(&above, 1), 1, 1, std::span(&targets[2], 1)).visible(0, 0));
   const TargetPoint bare{targets[2].position, 0};
   EXPECT_FALSE(compute_visibility(tracer, std::span(&above, 1), 1, 1, std::span(&bare, 1)).visible(0, 0));
 }

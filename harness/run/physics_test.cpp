@@ -94,7 +94,9 @@ TEST_P(BruteForce, ConvergesToTheReference) {
     std::printf("rsm %u: SMAPE %.3f %%, bias %+.3f %%\n", rsm, e.smape, 100 * *e.bias);
     EXPECT_LT(e.smape, previous) << "the error must fall as the RSM grows to " << rsm;
     previous = e.smape;
-    if (rsm == 128) EXPECT_LT(std::abs(*e.bias), 0.01);
+    if (rsm == 128) {
+      EXPECT_LT(std::abs(*e.bias), 0.01);
+    }
   }
 }
 
