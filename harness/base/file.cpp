@@ -32,8 +32,8 @@ Container read_all(const fs::path& path) {
 
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> serial{0};
-  return path.parent_path() /
-         fmt::format(".{}.{}.{}.tmp{}", path.stem().string(), ::getpid(), serial++, path.extension().string());
+  return path.parent_path() / fmt::format(".{}.{}.{}.tmp{}", path.stem().string(), ::getpid(), serial++,
+                                          path.extension().string());
 }
 
 }  // namespace

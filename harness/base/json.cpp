@@ -190,9 +190,9 @@ class SchemaChecker {
   }
   static bool is_known(const std::string& k) {
     static const std::set<std::string> known = {
-        "$schema", "$id", "$defs", "title", "description", "default", "examples", "required", "minimum",
-        "maximum", "exclusiveMinimum", "exclusiveMaximum", "minLength", "pattern", "items", "properties",
-        "additionalProperties"};
+        "$schema",   "$id",      "$defs",   "title",      "description",         "default",
+        "examples",  "required", "minimum", "maximum",    "exclusiveMinimum",    "exclusiveMaximum",
+        "minLength", "pattern",  "items",   "properties", "additionalProperties"};
     return known.count(k) > 0;
   }
   void check_type(const Json& v, const Json& rule, const std::string& at) {
@@ -219,7 +219,8 @@ class SchemaChecker {
     bool first = true;
     for (const auto& alternative : alternatives) {
       std::vector<std::pair<std::string, std::string>> found;
-      SchemaChecker inner(root_, [&](const std::string& p, const std::string& m) { found.emplace_back(p, m); });
+      SchemaChecker inner(root_,
+                          [&](const std::string& p, const std::string& m) { found.emplace_back(p, m); });
       inner.check(v, alternative, at);
       if (found.empty()) return;
       // The alternative that fails deepest is the one that was meant.
@@ -231,8 +232,10 @@ class SchemaChecker {
   void check_bound(double v, const std::string& keyword, double bound, const std::string& at) {
     if (keyword == "minimum" && !(v >= bound)) report_(at, fmt::format("{} must be at least {}", v, bound));
     if (keyword == "maximum" && !(v <= bound)) report_(at, fmt::format("{} must be at most {}", v, bound));
-    if (keyword == "exclusiveMinimum" && !(v > bound)) report_(at, fmt::format("{} must be over {}", v, bound));
-    if (keyword == "exclusiveMaximum" && !(v < bound)) report_(at, fmt::format("{} must be under {}", v, bound));
+    if (keyword == "exclusiveMinimum" && !(v > bound))
+      report_(at, fmt::format("{} must be over {}", v, bound));
+    if (keyword == "exclusiveMaximum" && !(v < bound))
+      report_(at, fmt::format("{} must be under {}", v, bound));
   }
   void check_count(const Json& v, const std::string& keyword, size_t n, const std::string& at) {
     if (keyword == "minItems" && v.is_array() && v.size() < n) {

@@ -36,8 +36,10 @@ TEST(Json, RecordsTheLineOfEveryValue) {
 }
 
 TEST(Json, SyntaxErrorsSayTheLine) {
-  EXPECT_NE(message_of([] { parse("{\n\"a\": 1,\n\"b\": }\n"); }).find("f.json:3: not JSON"), std::string::npos);
-  EXPECT_EQ(message_of([] { parse("{\n\"a\": 1,\n\"a\": 2}\n"); }), "f.json:3: the key 'a' stands here twice");
+  EXPECT_NE(message_of([] { parse("{\n\"a\": 1,\n\"b\": }\n"); }).find("f.json:3: not JSON"),
+            std::string::npos);
+  EXPECT_EQ(message_of([] { parse("{\n\"a\": 1,\n\"a\": 2}\n"); }),
+            "f.json:3: the key 'a' stands here twice");
   EXPECT_NE(message_of([] { parse(std::string(100, '[')); }).find("nested deeper"), std::string::npos);
   EXPECT_NE(message_of([] { parse(""); }).find("f.json:1: not JSON"), std::string::npos);
 }

@@ -11,7 +11,7 @@ namespace vsglbench {
 class Progress {
  public:
   Progress(std::string label, uint64_t total);
-  ~Progress();  // clears the bar's line
+  ~Progress();                       // clears the bar's line
   void advance(uint64_t steps = 1);  // any thread
   void label(std::string text);
 

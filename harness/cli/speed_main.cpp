@@ -19,7 +19,8 @@ using namespace vsglbench;
 
 namespace {
 
-// Evaluations of one SG lobe at one glossy pixel (its Lambert and its ASG lobe), per second of the shade pass.
+// Evaluations of one SG lobe at one glossy pixel (its Lambert and its ASG lobe), per second of the shade
+// pass.
 double lobe_evaluations_per_second(const Scene& scene) {
   Device device;
   KernelLibrary kernels(device);
@@ -53,8 +54,8 @@ double overhead_ratio() {
 
 bool print(const char* what, double value, const char* unit, double limit, bool at_least) {
   const bool met = at_least ? value >= limit : value <= limit;
-  fmt::print("{:<58} {:>8.2f} {:<8} {} {:.2f}  {}\n", what, value, unit, at_least ? "at least" : "at most ", limit,
-             met ? "met" : "MISSED");
+  fmt::print("{:<58} {:>8.2f} {:<8} {} {:.2f}  {}\n", what, value, unit, at_least ? "at least" : "at most ",
+             limit, met ? "met" : "MISSED");
   return met;
 }
 
@@ -69,9 +70,12 @@ int main(int argc, char** argv) {
     small.width = 240;
     small.height = 136;
     small.samples = 32;
-    bool met = print("shading, SG lobe evaluations", lobe_evaluations_per_second(scene) * 1e-6, "M/s", 120, true);
-    met &= print("reference rays/s over a bare Embree loop's", reference_speed_ratio(scene, small), "x", 0.6, true);
-    met &= print("wall over device time (references, rays, compiling aside)", overhead_ratio(), "x", 1.15, false);
+    bool met =
+        print("shading, SG lobe evaluations", lobe_evaluations_per_second(scene) * 1e-6, "M/s", 120, true);
+    met &= print("reference rays/s over a bare Embree loop's", reference_speed_ratio(scene, small), "x", 0.6,
+                 true);
+    met &= print("wall over device time (references, rays, compiling aside)", overhead_ratio(), "x", 1.15,
+                 false);
     return met || argc < 2 || std::string_view(argv[1]) != "--check" ? 0 : 1;
   } catch (const Error& e) {
     fmt::print(stderr, "vsglbench-speed: {}\n", e.what());

@@ -71,8 +71,8 @@ ImperfectShadowMaps& Stage::shadow_maps(const IsmParameters& p) {
   return *slot;
 }
 
-Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_parameters, const FrameParameters& parameters,
-             ExactVisibility exact)
+Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_parameters,
+             const FrameParameters& parameters, ExactVisibility exact)
     : stage_(stage),
       parameters_(parameters),
       context_(stage.kernels, stage.scratch, method_folder(method.name)),
@@ -92,7 +92,8 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
       static_cast<uint32_t>(std::clamp<uint64_t>(parameters.importance_lights, 1, pixels)), pixels);
   const View camera = camera_view(stage.scene.camera, parameters.width, parameters.height);
   camera_ = make_emitter(camera, parameters.width, parameters.height, glm::vec3(1), true);
-  light_ = make_emitter(light_view(stage.scene.light), parameters.rsm, parameters.rsm, stage.scene.light.power, false);
+  light_ = make_emitter(light_view(stage.scene.light), parameters.rsm, parameters.rsm,
+                        stage.scene.light.power, false);
   camera_buffer_ = Buffer(stage.device, "camera", sizeof camera_);
   camera_buffer_.upload(&camera_, sizeof camera_);
   light_view_buffer_ = Buffer(stage.device, "light", sizeof light_);
@@ -156,11 +157,10 @@ void Frame::draw_halves(Recorder& r) {
 void Frame::build_pdf_mips(Recorder& r, const Buffer& pdf, uint32_t w, uint32_t h) {
   const Kernel& mip = stage_.kernels.get(kernel_path("pdf_mip.comp"));
   for (uint32_t level = 1; level <= pyramid_top(w, h); ++level) {
-    const struct {
-      uint32_t width, height, level;
-    } push{w, h, level};
+    const struct { uint32_t width, height, level; } push{w, h, level};
     r.barrier();
-    r.dispatch(mip, {pdf}, push, groups_for(groups_for(w, 1u << level), 8), groups_for(groups_for(h, 1u << level), 8));
+    r.dispatch(mip, {pdf}, push, groups_for(groups_for(w, 1u << level), 8),
+               groups_for(groups_for(h, 1u << level), 8));
   }
 }
 
@@ -169,8 +169,8 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
   const auto g = gbuffer_->pointers();
   r.pass("importance.gbuffer", [&] {
     const Buffer& pdf = pdf_buffer(Half::gbuffer);
-    r.dispatch(stage_.kernels.get(kernel_path("pdf_gbuffer.comp")), {*g[0], *g[1], *g[2], *g[3], *g[4], pdf}, camera_,
-               groups_for(camera_.width, 8), groups_for(camera_.height, 8));
+    r.dispatch(stage_.kernels.get(kernel_path("pdf_gbuffer.comp")), {*g[0], *g[1], *g[2], *g[3], *g[4], pdf},
+               camera_, groups_for(camera_.width, 8), groups_for(camera_.height, 8));
     build_pdf_mips(r, pdf, camera_.width, camera_.height);
   });
   // 2. Lights on the G-buffer, by the method under test.
@@ -205,7 +205,8 @@ void Frame::shade(Recorder& r) {
   ShaderDefines defines = light_define(method_->kind());
   defines["VISIBILITY"] = std::to_string(static_cast<int>(parameters_.visibility));
   const Kernel& kernel = stage_.kernels.get(kernel_path("shade.comp"), defines);
-  const uint32_t words = groups_for(pixels, 32), gx = groups_for(camera_.width, 8), gy = groups_for(camera_.height, 8);
+  const uint32_t words = groups_for(pixels, 32), gx = groups_for(camera_.width, 8),
+                 gy = groups_for(camera_.height, 8);
   const auto g = gbuffer_->pointers();
   struct {
     gpu::Emitter emitter;
@@ -221,7 +222,8 @@ void Frame::shade(Recorder& r) {
   if (parameters_.visibility == Visibility::ism) {
     const auto maps = stage_.shadow_maps(parameters_.ism).build(r, lights, method_->kind(), light_count_);
     r.pass("shade", [&] {
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *maps.depth, *maps.frames}, push, gx, gy);
+      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *maps.depth, *maps.frames},
+                 push, gx, gy);
     });
     return;
   }
@@ -231,8 +233,8 @@ void Frame::shade(Recorder& r) {
   std::vector<const Buffer*> chunks;
   for (uint32_t first = 0; first < light_count_; first += most) {
     const uint32_t count = std::min(most, light_count_ - first);
-    Buffer& chunk =
-        stage_.scratch.get(fmt::format("visibility {}", first / most), size_t(count) * words * sizeof(uint32_t));
+    Buffer& chunk = stage_.scratch.get(fmt::format("visibility {}", first / most),
+                                       size_t(count) * words * sizeof(uint32_t));
     chunk.upload(&bits_[size_t(first) * words], size_t(count) * words * sizeof(uint32_t));
     chunks.push_back(&chunk);
   }
@@ -258,7 +260,8 @@ Image Frame::indirect() const {
   Image image(camera_.width, camera_.height);
   const auto texels = stage_.scratch.get("indirect", image.pixels.size() * sizeof(glm::vec4))
                           .download<glm::vec4>(image.pixels.size());
-  std::transform(texels.begin(), texels.end(), image.pixels.begin(), [](const glm::vec4& t) { return glm::vec3(t); });
+  std::transform(texels.begin(), texels.end(), image.pixels.begin(),
+                 [](const glm::vec4& t) { return glm::vec3(t); });
   return image;
 }
 
@@ -281,7 +284,8 @@ std::vector<gpu::Vpl> Frame::vpls() const {
 
 std::vector<float> Frame::importance() const {
   if (!method_->uses_importance()) return {};
-  return const_cast<Frame*>(this)->pdf_buffer(Half::rsm).download<float>(size_t(light_.width) * light_.height);
+  return const_cast<Frame*>(this)->pdf_buffer(Half::rsm).download<float>(size_t(light_.width) *
+                                                                         light_.height);
 }
 
 std::string Frame::first_bad_pass() const {
@@ -295,7 +299,8 @@ std::string Frame::first_bad_pass() const {
     });
   };
   const auto bad_lights = [&](const auto& lights) {
-    return bad_floats(reinterpret_cast<const float*>(lights.data()), lights.size() * sizeof(lights[0]) / sizeof(float));
+    return bad_floats(reinterpret_cast<const float*>(lights.data()),
+                      lights.size() * sizeof(lights[0]) / sizeof(float));
   };
   if (bad_maps(*gbuffer_)) return "gbuffer";
   if (bad_maps(*rsm_)) return "rsm";
@@ -319,7 +324,8 @@ Image Frame::render_direct() {
   recorder_.submit_and_wait();
   Image image(camera_.width, camera_.height);
   const auto texels = out.download<glm::vec4>(pixels);
-  std::transform(texels.begin(), texels.end(), image.pixels.begin(), [](const glm::vec4& t) { return glm::vec3(t); });
+  std::transform(texels.begin(), texels.end(), image.pixels.begin(),
+                 [](const glm::vec4& t) { return glm::vec3(t); });
   return image;
 }
 

@@ -24,7 +24,7 @@ struct FrameParameters {
 };
 
 struct FrameTimes {
-  std::vector<PassTime> passes;  // in order of first appearance, one entry a name
+  std::vector<PassTime> passes;    // in order of first appearance, one entry a name
   double span_ms = 0, sum_ms = 0;  // span: first to last timestamp, summed over submissions
   unsigned generate_dispatches = 0;
 };
@@ -50,8 +50,8 @@ class Frame {
  public:
   // `exact` is called for Visibility::exact only. Throws Error(case_failed) for sizes the device can't take,
   // N = 0 or N > texels.
-  Frame(Stage& stage, const MethodInfo& method, const Json& method_parameters, const FrameParameters& parameters,
-        ExactVisibility exact);
+  Frame(Stage& stage, const MethodInfo& method, const Json& method_parameters,
+        const FrameParameters& parameters, ExactVisibility exact);
   ~Frame();
 
   // Renders with the lattice shift of `seed` (0: none). Waits for the device.
@@ -102,7 +102,7 @@ class Frame {
   Buffer camera_buffer_, light_view_buffer_;
   uint32_t light_count_ = 0, importance_count_ = 0;
   unsigned generate_dispatches_ = 0;
-  std::vector<LightPoint> traced_;   // the lights whose bits are in bits_
+  std::vector<LightPoint> traced_;  // the lights whose bits are in bits_
   std::vector<uint32_t> bits_;
 };
 

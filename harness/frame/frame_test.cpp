@@ -25,19 +25,21 @@ std::vector<uint32_t> all_visible(size_t lights, uint64_t pixels) {
 
 struct Session {
   explicit Session(const Scene& s, Device& d = device()) : kernels(d), stage(d, kernels, s) {}
-  std::unique_ptr<Frame> frame(const std::string& method, FrameParameters p, const Json& own = Json::object()) {
+  std::unique_ptr<Frame> frame(const std::string& method, FrameParameters p,
+                               const Json& own = Json::object()) {
     const MethodInfo& info = find_method(method);
     const uint64_t pixels = uint64_t(p.width) * p.height;
-    return std::make_unique<Frame>(stage, info, resolve_parameters(info, own), p, [pixels](const auto& lights) {
-      return all_visible(lights.size(), pixels);
-    });
+    return std::make_unique<Frame>(
+        stage, info, resolve_parameters(info, own), p,
+        [pixels](const auto& lights) { return all_visible(lights.size(), pixels); });
   }
   KernelLibrary kernels;
   Stage stage;
 };
 
 FrameParameters small(Visibility visibility = Visibility::none) {
-  return {.width = 64, .height = 36, .rsm = 64, .lights = 64, .importance_lights = 64, .visibility = visibility};
+  return {
+      .width = 64, .height = 36, .rsm = 64, .lights = 64, .importance_lights = 64, .visibility = visibility};
 }
 
 double flux_ratio(const Scene& scene) {
@@ -85,7 +87,8 @@ TEST(Frame, NamesItsPassesInOrder) {
   const Scene scene = load("cornell");
   Session session(scene);
   std::vector<std::string> names;
-  for (const auto& pass : session.frame("mfis", small(Visibility::ism))->render(0).passes) names.push_back(pass.name);
+  for (const auto& pass : session.frame("mfis", small(Visibility::ism))->render(0).passes)
+    names.push_back(pass.name);
   const std::vector<std::string> expected = {"gbuffer",
                                              "rsm",
                                              "importance.gbuffer",
@@ -115,7 +118,8 @@ TEST(Frame, PassTimesAddUpToTheSpan) {
   const FrameTimes times = frame->render(0);
   EXPECT_GT(times.sum_ms, 0.9 * times.span_ms);
   EXPECT_LE(times.sum_ms, 1.0001 * times.span_ms);
-  const auto shade = std::find_if(times.passes.begin(), times.passes.end(), [](const auto& t) { return t.name == "shade"; });
+  const auto shade =
+      std::find_if(times.passes.begin(), times.passes.end(), [](const auto& t) { return t.name == "shade"; });
   EXPECT_GT(shade->ms, 0.2 * times.span_ms) << "36,864 pixels x 64 lights are most of this frame";
 }
 

@@ -12,11 +12,12 @@ DeferredTargets::DeferredTargets(Device& device, const std::string& name, uint32
     : width(w), height(h) {
   static constexpr const char* names[] = {"position", "normal", "geometric normal", "diffuse", "f0"};
   for (size_t i = 0; i < maps.size(); ++i) {
-    maps[i] = DeviceImage(device, name + " " + names[i], VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
-                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    maps[i] = DeviceImage(
+        device, name + " " + names[i], VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   }
-  depth = DeviceImage(device, name + " depth", VK_FORMAT_D32_SFLOAT, w, h, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+  depth = DeviceImage(device, name + " depth", VK_FORMAT_D32_SFLOAT, w, h,
+                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
 }
 
 std::array<const DeviceImage*, 5> DeferredTargets::pointers() const {
@@ -104,7 +105,8 @@ void SceneGpu::make_draws(const Scene& scene) {
                  .alpha_cutoff = m.alpha_cutoff,
                  .normal_scale = m.normal_scale,
                  .first_triangle = batch.first_triangle};
-    for (uint32_t slot = 0; slot < 3; ++slot) draw.push.textures |= draw.textures[slot] >= 0 ? 1u << slot : 0u;
+    for (uint32_t slot = 0; slot < 3; ++slot)
+      draw.push.textures |= draw.textures[slot] >= 0 ? 1u << slot : 0u;
     draws_.push_back(draw);
   }
 }

@@ -46,8 +46,8 @@ dvec3 brdf_cosine(const Pixel& s, const dvec3& l) {
 }
 
 // The paper's chain, with the naive exponents that double precision can afford.
-dvec3 shade_lobe(const Pixel& s, const dvec3& amplitude, const dvec3& axis, double sharpness, const dvec3& mean,
-                 double variance) {
+dvec3 shade_lobe(const Pixel& s, const dvec3& amplitude, const dvec3& axis, double sharpness,
+                 const dvec3& mean, double variance) {
   const dvec3 to = mean - s.position;
   const double d2 = glm::dot(to, to), spread = d2 / variance;  // Eq. (11)
   const dvec3 sum = spread * glm::normalize(to) - sharpness * axis;
@@ -63,8 +63,9 @@ dvec3 shade_lobe(const Pixel& s, const dvec3& amplitude, const dvec3& axis, doub
   const double ex = h / (8 * nv * nv), ey = h / 8;
   const dvec3 z = 2 * glm::dot(s.view, s.normal) * s.normal - s.view;
   const dvec3 y = glm::normalize(glm::cross(s.normal, s.view)), x = glm::cross(y, z);
-  const double g = std::max(glm::dot(xi, z), 0.0) * std::exp(-ex * nu / (ex + nu) * std::pow(glm::dot(xi, x), 2) -
-                                                             ey * nu / (ey + nu) * std::pow(glm::dot(xi, y), 2));
+  const double g =
+      std::max(glm::dot(xi, z), 0.0) * std::exp(-ex * nu / (ex + nu) * std::pow(glm::dot(xi, x), 2) -
+                                                ey * nu / (ey + nu) * std::pow(glm::dot(xi, y), 2));
   const double vh = std::sqrt(std::max(0.5 + 0.5 * glm::dot(xi, s.view), 0.0));
   const dvec3 factor = peak * smith(nl, nv, masking_alpha(s.ndf)) * nl * fresnel(s.f0, vh);  // C(ξ)
   return diffuse + c * factor * (kPi * g / std::sqrt((ex + nu) * (ey + nu)));
@@ -121,7 +122,8 @@ class ShadeTest : public ::testing::Test {
     maps[2].emplace_back(g, 0);
     maps[3].emplace_back(rd, 0);
     maps[4].emplace_back(f0, 0);
-    pixels_.push_back({p, glm::normalize(dvec3(n)), g, glm::normalize(dvec3(camera_.position) - dvec3(p)), rd, f0, a});
+    pixels_.push_back(
+        {p, glm::normalize(dvec3(n)), g, glm::normalize(dvec3(camera_.position) - dvec3(p)), rd, f0, a});
   }
 
   template <class Light>
@@ -139,7 +141,8 @@ class ShadeTest : public ::testing::Test {
     Recorder recorder(device());
     recorder.begin();
     recorder.pass("shade", [&] {
-      recorder.dispatch(kernel, {images_[0], images_[1], images_[2], images_[3], images_[4], light_buffer, out}, push,
+      recorder.dispatch(kernel,
+                        {images_[0], images_[1], images_[2], images_[3], images_[4], light_buffer, out}, push,
                         groups_for(kWidth, 8), groups_for(kHeight, 8));
     });
     recorder.submit_and_wait();
@@ -183,8 +186,10 @@ TEST_F(ShadeTest, VsglsMatchDouble) {
   std::vector<dvec3> host(pixels_.size(), dvec3(0));
   for (size_t i = 0; i < pixels_.size(); ++i) {
     for (const auto& l : lights) {
-      host[i] += shade_lobe(pixels_[i], l.diffuse, glm::normalize(dvec3(l.diffuse_axis)), l.diffuse_sharpness, l.mean, l.variance);
-      host[i] += shade_lobe(pixels_[i], l.specular, glm::normalize(dvec3(l.specular_axis)), l.specular_sharpness, l.mean, l.variance);
+      host[i] += shade_lobe(pixels_[i], l.diffuse, glm::normalize(dvec3(l.diffuse_axis)), l.diffuse_sharpness,
+                            l.mean, l.variance);
+      host[i] += shade_lobe(pixels_[i], l.specular, glm::normalize(dvec3(l.specular_axis)),
+                            l.specular_sharpness, l.mean, l.variance);
     }
   }
   EXPECT_LT(worst(shade(lights, "0"), host), 1e-4);
@@ -207,8 +212,13 @@ TEST_F(ShadeTest, VplsMatchDouble) {
   for (size_t i = 0; i < pixels_.size(); ++i) {
     for (const auto& l : lights) {
       const dvec3 to = dvec3(l.position) - pixels_[i].position, w = glm::normalize(to);
-      const Pixel emitter{l.position, glm::normalize(dvec3(l.normal)), l.geometric_normal,
-                          glm::normalize(dvec3(l.incident)), l.diffuse, l.f0, l.ndf};
+      const Pixel emitter{l.position,
+                          glm::normalize(dvec3(l.normal)),
+                          l.geometric_normal,
+                          glm::normalize(dvec3(l.incident)),
+                          l.diffuse,
+                          l.f0,
+                          l.ndf};
       host[i] += dvec3(l.flux) * brdf_cosine(emitter, -w) * brdf_cosine(pixels_[i], w) / glm::dot(to, to);
     }
   }

@@ -73,9 +73,7 @@ ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const B
     recorder.fill(maps, 0x7F800000u);
     recorder.dispatch(make_frames, {lights, frames}, count, groups_for(count, 64));
     recorder.barrier();
-    const struct {
-      uint32_t count, map_size, per_map, pool;
-    } push{count, size, parameters_.points, pool_};
+    const struct { uint32_t count, map_size, per_map, pool; } push{count, size, parameters_.points, pool_};
     recorder.dispatch(splat, {frames, points_, maps}, push, groups_for(parameters_.points, 64), count);
   });
   fill_holes(recorder, count);
@@ -90,13 +88,15 @@ void ImperfectShadowMaps::fill_holes(Recorder& recorder, uint32_t count) {
   constexpr uint32_t coarsest = 4;
   recorder.pass("visibility.ism.pull", [&] {
     for (uint32_t size = parameters_.size / 2; size >= coarsest; size /= 2) {
-      recorder.dispatch(pull, {level(2 * size, count), level(size, count)}, size, groups_for(size * size, 64), count);
+      recorder.dispatch(pull, {level(2 * size, count), level(size, count)}, size, groups_for(size * size, 64),
+                        count);
       recorder.barrier();
     }
   });
   recorder.pass("visibility.ism.push", [&] {
     for (uint32_t size = 2 * coarsest; size <= parameters_.size; size *= 2) {
-      recorder.dispatch(push_kernel, {level(size / 2, count), level(size, count)}, size, groups_for(size * size, 64), count);
+      recorder.dispatch(push_kernel, {level(size / 2, count), level(size, count)}, size,
+                        groups_for(size * size, 64), count);
       recorder.barrier();
     }
   });

@@ -27,14 +27,15 @@ struct LightPoint {
 using ExactVisibility = std::function<std::vector<uint32_t>(const std::vector<LightPoint>& lights)>;
 
 struct IsmParameters {
-  uint32_t size = 64;       // texels a side, a power of two
-  uint32_t points = 8192;   // splatted into each map
+  uint32_t size = 64;      // texels a side, a power of two
+  uint32_t points = 8192;  // splatted into each map
 };
 
 // Imperfect shadow maps of all lights (Ritschel et al. 2008), as passes visibility.ism.*.
 class ImperfectShadowMaps {
  public:
-  ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene, IsmParameters parameters);
+  ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene,
+                      IsmParameters parameters);
   struct Maps {
     const Buffer *depth, *frames;
     uint32_t size;

@@ -32,7 +32,8 @@ VkBuffer make_buffer(Device& device, size_t bytes, VkBufferUsageFlags usage) {
   return buffer;
 }
 
-constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kHost =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 // A host-visible buffer that lives for one copy.
 struct Staging {
@@ -63,8 +64,8 @@ struct Staging {
 Buffer::Buffer(Device& device, const std::string& name, size_t bytes)
     : device_(&device), size_(bytes < 16 ? 16 : bytes) {
   if (size_ > device.info().max_storage_range) {
-    throw fail(ErrorKind::case_failed, "{}: {} MiB are over the device's storage-buffer range of {} MiB", name,
-               size_ >> 20, device.info().max_storage_range >> 20);
+    throw fail(ErrorKind::case_failed, "{}: {} MiB are over the device's storage-buffer range of {} MiB",
+               name, size_ >> 20, device.info().max_storage_range >> 20);
   }
   buffer_ = make_buffer(device, size_,
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -136,7 +137,8 @@ DeviceImage::DeviceImage(Device& device, const std::string& name, VkFormat forma
     : device_(&device), format_(format), width_(width), height_(height) {
   const uint32_t limit = device.info().max_image_dimension;
   if (width == 0 || height == 0 || width > limit || height > limit) {
-    throw fail(ErrorKind::case_failed, "{}: an image of {} x {} is not within 1 … {}", name, width, height, limit);
+    throw fail(ErrorKind::case_failed, "{}: an image of {} x {} is not within 1 … {}", name, width, height,
+               limit);
   }
   const VkImageCreateInfo create{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                  .imageType = VK_IMAGE_TYPE_2D,
@@ -214,19 +216,24 @@ void DeviceImage::upload(const void* texels, size_t bytes) {
     transition(commands, *this, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {width_, height_, 1}};
-    vkCmdCopyBufferToImage(commands, staging.buffer, image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    transition(commands, *this, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    vkCmdCopyBufferToImage(commands, staging.buffer, image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                           &region);
+    transition(commands, *this, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
 }
 
 void DeviceImage::download(void* texels, size_t bytes) const {
   Staging staging(*device_, bytes);
   device_->run_once([&](VkCommandBuffer commands) {
-    transition(commands, *this, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    transition(commands, *this, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {width_, height_, 1}};
-    vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.buffer, 1, &region);
-    transition(commands, *this, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.buffer, 1,
+                           &region);
+    transition(commands, *this, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
   std::memcpy(texels, staging.mapped, bytes);
 }

@@ -16,7 +16,7 @@ namespace vsglbench {
 void check_vulkan(VkResult result, const char* call, const char* file, int line) {
   if (result == VK_SUCCESS) return;
   const char* base = std::strrchr(file, '/');
-  const char* reason = result == VK_ERROR_DEVICE_LOST           ? "the device was lost"
+  const char* reason = result == VK_ERROR_DEVICE_LOST            ? "the device was lost"
                        : result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? "out of device memory"
                        : result == VK_ERROR_OUT_OF_HOST_MEMORY   ? "out of host memory"
                                                                  : "failed";
@@ -31,7 +31,8 @@ VkInstance make_instance(bool validation) {
                               .pApplicationName = "vsglbench",
                               .apiVersion = VK_API_VERSION_1_3};
   std::vector<const char*> layers, extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
-  const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeatureEnableEXT enabled[] = {
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                          .enabledValidationFeatureCount = 1,
                                          .pEnabledValidationFeatures = enabled};
@@ -122,7 +123,8 @@ void Device::pick(const std::string& select) {
     infos.push_back(describe_device(device, static_cast<uint32_t>(infos.size())));
     names.push_back(fmt::format("{}: {}", infos.back().index, infos.back().name));
   }
-  if (infos.empty()) throw fail(ErrorKind::device, "no Vulkan device; install a driver (mesa-vulkan-drivers)");
+  if (infos.empty())
+    throw fail(ErrorKind::device, "no Vulkan device; install a driver (mesa-vulkan-drivers)");
   const bool by_index = !select.empty() && std::all_of(select.begin(), select.end(), ::isdigit);
   const DeviceInfo* chosen = nullptr;
   for (const auto& info : infos) {
@@ -174,9 +176,12 @@ void Device::create_device() {
                                     .maxLod = 0};
   VK_CHECK(vkCreateSampler(device_, &sampler, nullptr, &sampler_));
   const auto instance_function = [&](const char* name) { return vkGetInstanceProcAddr(instance_, name); };
-  begin_label = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(instance_function("vkCmdBeginDebugUtilsLabelEXT"));
-  end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(instance_function("vkCmdEndDebugUtilsLabelEXT"));
-  set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(instance_function("vkSetDebugUtilsObjectNameEXT"));
+  begin_label =
+      reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(instance_function("vkCmdBeginDebugUtilsLabelEXT"));
+  end_label =
+      reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(instance_function("vkCmdEndDebugUtilsLabelEXT"));
+  set_name_ =
+      reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(instance_function("vkSetDebugUtilsObjectNameEXT"));
 }
 
 uint32_t Device::memory_type(uint32_t allowed_bits, VkMemoryPropertyFlags wanted) const {

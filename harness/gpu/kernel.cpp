@@ -10,13 +10,19 @@ namespace vsglbench {
 namespace {
 
 // The few SPIR-V opcodes and enumerants that reflection needs (SPIR-V specification 1.6, section 3).
-enum Op : uint32_t { kTypeImage = 25, kTypeSampledImage = 27, kTypePointer = 32, kVariable = 59, kDecorate = 71 };
+enum Op : uint32_t {
+  kTypeImage = 25,
+  kTypeSampledImage = 27,
+  kTypePointer = 32,
+  kVariable = 59,
+  kDecorate = 71
+};
 enum Decoration : uint32_t { kBinding = 33, kDescriptorSet = 34 };
 enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
 
 struct Reflected {
-  std::map<uint32_t, uint32_t> binding, set;         // variable id → decoration
-  std::map<uint32_t, uint32_t> pointee, type_opcode;  // pointer type → type; type → opcode
+  std::map<uint32_t, uint32_t> binding, set;                    // variable id → decoration
+  std::map<uint32_t, uint32_t> pointee, type_opcode;            // pointer type → type; type → opcode
   std::map<uint32_t, std::pair<uint32_t, uint32_t>> variables;  // id → (pointer type, storage class)
 };
 
@@ -60,7 +66,8 @@ std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spir
   }
   std::vector<VkDescriptorType> types;
   for (const auto& [binding, type] : found) {
-    if (binding != types.size()) throw fail(ErrorKind::plugin, "{}: binding {} is missing", name, types.size());
+    if (binding != types.size())
+      throw fail(ErrorKind::plugin, "{}: binding {} is missing", name, types.size());
     types.push_back(type);
   }
   return types;
@@ -150,7 +157,8 @@ void BindingLayout::bind(VkCommandBuffer commands, DescriptorArena& arena, VkPip
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     const bool is_image = types_[i] == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     if (is_image != (bindings[i].image != nullptr)) {
-      throw std::logic_error(fmt::format("{}: binding {} takes {}", name, i, is_image ? "an image" : "a buffer"));
+      throw std::logic_error(
+          fmt::format("{}: binding {} takes {}", name, i, is_image ? "an image" : "a buffer"));
     }
     if (is_image) {
       images[i] = {device_->sampler(), bindings[i].image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
@@ -212,7 +220,8 @@ void Kernel::swap(Kernel& other) noexcept {
 }
 
 void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
-                      const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+                      const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y,
+                      uint32_t groups_z) const {
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
   layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);

@@ -85,7 +85,8 @@ class Kernel {
   const std::string& name() const { return name_; }
   // Binds and dispatches groups; a group count of zero records nothing.
   void dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
-                const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1) const;
+                const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1,
+                uint32_t groups_z = 1) const;
 
  private:
   void swap(Kernel& other) noexcept;

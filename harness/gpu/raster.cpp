@@ -9,7 +9,10 @@ namespace vsglbench {
 namespace {
 
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule module) {
-  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, .stage = bit, .module = module, .pName = "main"};
+  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+          .stage = bit,
+          .module = module,
+          .pName = "main"};
 }
 
 VkRenderingAttachmentInfo attachment(const DeviceImage& image, VkImageLayout layout, VkClearValue clear) {
@@ -39,7 +42,8 @@ RasterPipeline::RasterPipeline(Device& device, const std::filesystem::path& vert
                                                     stage(VK_SHADER_STAGE_FRAGMENT_BIT, modules[1])};
   const VkVertexInputBindingDescription binding{0, vertex_stride, VK_VERTEX_INPUT_RATE_VERTEX};
   std::vector<VkVertexInputAttributeDescription> inputs;
-  for (uint32_t i = 0; i < attributes.size(); ++i) inputs.push_back({i, 0, attributes[i].format, attributes[i].offset});
+  for (uint32_t i = 0; i < attributes.size(); ++i)
+    inputs.push_back({i, 0, attributes[i].format, attributes[i].offset});
   const VkPipelineVertexInputStateCreateInfo vertex_input{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
       .vertexBindingDescriptionCount = 1,
@@ -64,13 +68,15 @@ RasterPipeline::RasterPipeline(Device& device, const std::filesystem::path& vert
       .depthWriteEnable = VK_TRUE,
       .depthCompareOp = VK_COMPARE_OP_LESS};
   const std::vector<VkPipelineColorBlendAttachmentState> blends(targets.size(), {.colorWriteMask = 0xf});
-  const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                  .attachmentCount = static_cast<uint32_t>(blends.size()),
-                                                  .pAttachments = blends.data()};
+  const VkPipelineColorBlendStateCreateInfo blend{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+      .attachmentCount = static_cast<uint32_t>(blends.size()),
+      .pAttachments = blends.data()};
   const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-  const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                 .dynamicStateCount = 2,
-                                                 .pDynamicStates = dynamic_states};
+  const VkPipelineDynamicStateCreateInfo dynamic{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+      .dynamicStateCount = 2,
+      .pDynamicStates = dynamic_states};
   const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                 .colorAttachmentCount = static_cast<uint32_t>(targets.size()),
                                                 .pColorAttachmentFormats = targets.data(),
@@ -121,13 +127,15 @@ void RasterPipeline::render(VkCommandBuffer commands, const std::vector<const De
                              .pDepthAttachment = &depth_info};
   vkCmdBeginRendering(commands, &info);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
-  const VkViewport viewport{0, 0, static_cast<float>(depth.width()), static_cast<float>(depth.height()), 0, 1};
+  const VkViewport viewport{0, 0, static_cast<float>(depth.width()), static_cast<float>(depth.height()),
+                            0, 1};
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &area);
   draw();
   vkCmdEndRendering(commands);
   for (const DeviceImage* target : targets) {
-    transition(commands, *target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    transition(commands, *target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   }
 }
 

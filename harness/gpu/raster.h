@@ -34,8 +34,8 @@ class RasterPipeline {
 
   // Clears targets to zero and depth to one, then calls `draw` inside the rendering scope. Leaves the colour
   // targets in SHADER_READ_ONLY_OPTIMAL.
-  void render(VkCommandBuffer commands, const std::vector<const DeviceImage*>& targets, const DeviceImage& depth,
-              const std::function<void()>& draw) const;
+  void render(VkCommandBuffer commands, const std::vector<const DeviceImage*>& targets,
+              const DeviceImage& depth, const std::function<void()>& draw) const;
   const BindingLayout& layout() const { return layout_; }
 
  private:

@@ -41,7 +41,8 @@ void Recorder::pass(const std::string& name, const std::function<void()>& record
   const auto index = static_cast<uint32_t>(names_.size());
   names_.push_back(name);
   if (device_.begin_label) {
-    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                     .pLabelName = name.c_str()};
     device_.begin_label(commands_, &label);
   }
   // lavapipe takes a timestamp when the next barrier flushes it, so each needs a barrier of its own: without
@@ -57,7 +58,8 @@ void Recorder::pass(const std::string& name, const std::function<void()>& record
 
 void Recorder::dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const void* push,
                         size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
-  kernel.dispatch(commands_, descriptors_, {bindings.begin(), bindings.size()}, push, push_bytes, groups_x, groups_y, groups_z);
+  kernel.dispatch(commands_, descriptors_, {bindings.begin(), bindings.size()}, push, push_bytes, groups_x,
+                  groups_y, groups_z);
   if (groups_x && groups_y && groups_z) ++dispatches_;
 }
 

@@ -57,7 +57,9 @@ class FileIncluder : public glslang::TShader::Includer {
     }
     return nullptr;
   }
-  IncludeResult* includeSystem(const char* h, const char* i, size_t d) override { return includeLocal(h, i, d); }
+  IncludeResult* includeSystem(const char* h, const char* i, size_t d) override {
+    return includeLocal(h, i, d);
+  }
   void releaseInclude(IncludeResult* result) override {
     if (!result) return;
     delete static_cast<std::string*>(result->userData);
@@ -80,7 +82,8 @@ EShLanguage stage_of(const fs::path& path) {
 [[noreturn]] void report(const fs::path& path, const std::string& log) {
   std::smatch match;
   static const std::regex error("ERROR: ([^\n]*)");
-  const std::string first = std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
+  const std::string first =
+      std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
   throw fail(ErrorKind::plugin, "{}: {}", path.string(), first);
 }
 

@@ -14,7 +14,8 @@ struct Image {
   std::vector<glm::vec3> pixels;
 
   Image() = default;
-  Image(uint32_t w, uint32_t h, glm::vec3 fill = glm::vec3(0)) : width(w), height(h), pixels(size_t(w) * h, fill) {}
+  Image(uint32_t w, uint32_t h, glm::vec3 fill = glm::vec3(0))
+      : width(w), height(h), pixels(size_t(w) * h, fill) {}
   glm::vec3& at(uint32_t x, uint32_t y) { return pixels[size_t(y) * width + x]; }
   const glm::vec3& at(uint32_t x, uint32_t y) const { return pixels[size_t(y) * width + x]; }
 };

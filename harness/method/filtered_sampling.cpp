@@ -30,19 +30,19 @@ std::array<const Buffer*, 5> MomentPyramid::build(Steps& steps, const Field& fie
   const uint32_t w = field.emitter.width, h = field.emitter.height;
   std::array<const Buffer*, 5> m{};
   for (size_t k = 0; k < m.size(); ++k) {
-    m[k] = &context_.scratch(fmt::format("moments{}.{}", k, half_name(field.half)), pyramid_texels(w, h) * 16);
+    m[k] =
+        &context_.scratch(fmt::format("moments{}.{}", k, half_name(field.half)), pyramid_texels(w, h) * 16);
   }
   Recorder& r = steps.recorder();
   steps.pass("resolve", [&] {
     const auto& maps = field.maps;
-    r.dispatch(resolve_, {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *m[0], *m[1], *m[2], *m[3], *m[4]},
+    r.dispatch(resolve_,
+               {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *m[0], *m[1], *m[2], *m[3], *m[4]},
                field.emitter, groups_for(w, 8), groups_for(h, 8));
   });
   steps.pass("mipmap", [&] {
     for (uint32_t level = 1; level <= pyramid_top(w, h); ++level) {
-      const struct {
-        uint32_t width, height, level;
-      } push{w, h, level};
+      const struct { uint32_t width, height, level; } push{w, h, level};
       r.dispatch(mip_, {*m[0], *m[1], *m[2], *m[3], *m[4]}, push, groups_for(groups_for(w, 1u << level), 8),
                  groups_for(groups_for(h, 1u << level), 8));
       r.barrier();
@@ -69,8 +69,8 @@ class FilteredSampling : public Method {
         float kernel_size;
       } push{field.emitter.width,        field.emitter.height, target.count,
              lattice_step(target.count), target.shift,         kernel_size_};
-      steps.recorder().dispatch(sample_, {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer}, push,
-                                groups_for(target.count, 64));
+      steps.recorder().dispatch(sample_, {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer},
+                                push, groups_for(target.count, 64));
     });
   }
 

@@ -1,4 +1,5 @@
-// What `fis` and `mfis` share: the moment pyramid and the dispatch of the sampling kernel [MFIS16 §4, App. D].
+// What `fis` and `mfis` share: the moment pyramid and the dispatch of the sampling kernel [MFIS16 §4, App.
+// D].
 #pragma once
 
 #include <memory>

@@ -42,7 +42,8 @@ oracle::Half flat_half(uint32_t size, const std::function<float(uint32_t, uint32
     for (uint32_t x = 0; x < size; ++x) {
       auto& t = half.texels[size_t(y) * size + x];
       const glm::vec2 plane = {(2 * (x + 0.5f) / size - 1) * 0.7f, (1 - 2 * (y + 0.5f) / size) * 0.5f};
-      t = {.position = half.emitter.position + 4.0f * glm::vec3(plane.x, -1, -plane.y), .diffuse = glm::vec3(0.5f)};
+      t = {.position = half.emitter.position + 4.0f * glm::vec3(plane.x, -1, -plane.y),
+           .diffuse = glm::vec3(0.5f)};
       half.pdf[size_t(y) * size + x] = pdf(x, y);
     }
   }
@@ -61,12 +62,14 @@ double total_power(const oracle::Half& half) {
 }
 
 double sum_power(const std::vector<gpu::Vsgl>& lights) {
-  return std::accumulate(lights.begin(), lights.end(), 0.0, [](double s, const auto& l) { return s + l.power; });
+  return std::accumulate(lights.begin(), lights.end(), 0.0,
+                         [](double s, const auto& l) { return s + l.power; });
 }
 
 }  // namespace
 
-class FilteredSamplingOracle : public ::testing::TestWithParam<std::tuple<std::string, glm::uvec2, uint32_t, double>> {};
+class FilteredSamplingOracle
+    : public ::testing::TestWithParam<std::tuple<std::string, glm::uvec2, uint32_t, double>> {};
 
 TEST_P(FilteredSamplingOracle, MatchesDouble) {
   const auto [method, size, count, k] = GetParam();
@@ -192,7 +195,8 @@ TEST(Generate, VplsCarryTheFluxOfTheirTexels) {
   for (const auto& light : lights) sum += light.power;
   for (uint32_t y = 0; y < 48; ++y) {
     for (uint32_t x = 0; x < 64; ++x) {
-      if (half.texels[y * 64 + x].surface) expected += oracle::luminance(oracle::texel_flux(half.emitter, x, y));
+      if (half.texels[y * 64 + x].surface)
+        expected += oracle::luminance(oracle::texel_flux(half.emitter, x, y));
     }
   }
   EXPECT_NEAR(sum / expected, 1, 0.05);

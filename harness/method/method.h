@@ -20,7 +20,9 @@ enum class Half { gbuffer, rsm };
 enum class LightKind { vsgl, vpl };
 
 inline const char* half_name(Half half) { return half == Half::gbuffer ? "gbuffer" : "rsm"; }
-inline size_t light_stride(LightKind kind) { return kind == LightKind::vsgl ? sizeof(gpu::Vsgl) : sizeof(gpu::Vpl); }
+inline size_t light_stride(LightKind kind) {
+  return kind == LightKind::vsgl ? sizeof(gpu::Vsgl) : sizeof(gpu::Vpl);
+}
 
 // What a method reads: the deferred targets of one half, who emits into it, and the PDF.
 struct Field {
@@ -44,7 +46,8 @@ struct LightTarget {
 // Names the passes of one half `generate.<half>.<step>`.
 class Steps {
  public:
-  Steps(Recorder& recorder, Half half) : recorder_(recorder), prefix_(std::string("generate.") + half_name(half)) {}
+  Steps(Recorder& recorder, Half half)
+      : recorder_(recorder), prefix_(std::string("generate.") + half_name(half)) {}
   template <class Record>
   void pass(const std::string& step, const Record& record) {
     recorder_.pass(prefix_ + "." + step, record);
@@ -77,9 +80,9 @@ struct ParameterInfo {
 };
 
 struct MethodInfo {
-  std::string name;     // as a config writes it
-  std::string summary;  // one line
-  std::string source;   // paper, section
+  std::string name;               // as a config writes it
+  std::string summary;            // one line
+  std::string source;             // paper, section
   bool takes_light_count = true;  // false: the number of lights follows from the RSM
   std::vector<ParameterInfo> parameters;
   std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters);

@@ -39,7 +39,8 @@ Sums& Sums::add(const Sums& o, double f) {
 }
 
 glm::dvec3 texel_flux(const gpu::Emitter& e, uint32_t x, uint32_t y) {
-  const double px = (2.0 * (x + 0.5) / e.width - 1) * e.extent.x, py = (1 - 2.0 * (y + 0.5) / e.height) * e.extent.y;
+  const double px = (2.0 * (x + 0.5) / e.width - 1) * e.extent.x,
+               py = (1 - 2.0 * (y + 0.5) / e.height) * e.extent.y;
   const double area = 4.0 * e.extent.x * e.extent.y / (double(e.width) * e.height);
   if (e.importance) return glm::dvec3(1.0 / (double(e.width) * e.height));
   const double cos3 = e.perspective ? std::pow(1 + px * px + py * py, -1.5) : 1;
@@ -65,10 +66,12 @@ Sums texel_sums(const Half& half, uint32_t x, uint32_t y) {
   const double w = luminance(s.diffuse) + luminance(s.specular);
   s.position = w * p;
   // A texel is a square of area a on the surface, with variance a/6.
-  const double px = (2.0 * (x + 0.5) / e.width - 1) * e.extent.x, py = (1 - 2.0 * (y + 0.5) / e.height) * e.extent.y;
+  const double px = (2.0 * (x + 0.5) / e.width - 1) * e.extent.x,
+               py = (1 - 2.0 * (y + 0.5) / e.height) * e.extent.y;
   const double area = 4.0 * e.extent.x * e.extent.y / (double(e.width) * e.height);
   const double solid = e.perspective ? area * std::pow(1 + px * px + py * py, -1.5) * glm::dot(to, to) : area;
-  const double cos_surface = std::max(glm::dot(glm::dvec3(t.geometric_normal), view), double(e.footprint_cosine));
+  const double cos_surface =
+      std::max(glm::dot(glm::dvec3(t.geometric_normal), view), double(e.footprint_cosine));
   s.square = w * (glm::dot(p, p) + solid / cos_surface / 6);
   return s;
 }
@@ -86,7 +89,8 @@ Vsgl make_vsgl(const Sums& s, double factor) {
     return factor * power * *sharpness / (2 * kPi * -std::expm1(-2 * *sharpness));
   };
   if (wd > 0) v.diffuse = lobe(s.diffuse, s.diffuse_direction, wd, &v.diffuse_axis, &v.diffuse_sharpness);
-  if (ws > 0) v.specular = lobe(s.specular, s.specular_direction, ws, &v.specular_axis, &v.specular_sharpness);
+  if (ws > 0)
+    v.specular = lobe(s.specular, s.specular_direction, ws, &v.specular_axis, &v.specular_sharpness);
   v.mean = s.position / w;
   v.variance = s.square / w - glm::dot(v.mean, v.mean);
   v.power = factor * w;
@@ -142,7 +146,8 @@ double Pyramid::pdf(double px, double py, double level) const {
   const auto lo = static_cast<uint32_t>(level);
   const double f = level - lo;
   const auto get = [](double& v, const Level& l, uint32_t i, double w) { v += w * l.pdf[i]; };
-  return (1 - f) * bilinear<double>(px, py, lo, get) + f * bilinear<double>(px, py, std::min(lo + 1, top()), get);
+  return (1 - f) * bilinear<double>(px, py, lo, get) +
+         f * bilinear<double>(px, py, std::min(lo + 1, top()), get);
 }
 
 Sums Pyramid::sums(double px, double py, double level) const {
@@ -158,7 +163,8 @@ double Pyramid::mass(uint32_t l, uint32_t x, uint32_t y) const {
   const Level& level = levels_[l];
   if (x >= level.width || y >= level.height) return 0;
   const uint32_t block = 1u << l;
-  const double w = std::min(width_, (x + 1) * block) - x * block, h = std::min(height_, (y + 1) * block) - y * block;
+  const double w = std::min(width_, (x + 1) * block) - x * block,
+               h = std::min(height_, (y + 1) * block) - y * block;
   return level.pdf[size_t(y) * level.width + x] * w * h;
 }
 
@@ -173,7 +179,8 @@ glm::uvec2 Pyramid::warp(double ux, double uy) const {
   };
   for (uint32_t l = top(); l-- > 0;) {
     t *= 2u;
-    const double a = mass(l, t.x, t.y), b = mass(l, t.x + 1, t.y), c = mass(l, t.x, t.y + 1), d = mass(l, t.x + 1, t.y + 1);
+    const double a = mass(l, t.x, t.y), b = mass(l, t.x + 1, t.y), c = mass(l, t.x, t.y + 1),
+                 d = mass(l, t.x + 1, t.y + 1);
     const uint32_t dy = choose(a + b, c + d, uy);
     const uint32_t dx = dy ? choose(c, d, ux) : choose(a, b, ux);
     t += glm::uvec2(dx, dy);
@@ -181,7 +188,8 @@ glm::uvec2 Pyramid::warp(double ux, double uy) const {
   return t;
 }
 
-Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count, glm::uvec2 fixed) {
+Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count,
+                    glm::uvec2 fixed) {
   const glm::uvec2 t = pyramid.warp((fixed.x >> 8) * 0x1p-24, (fixed.y >> 8) * 0x1p-24);
   const double x = t.x + 0.5, y = t.y + 0.5, m = double(half.emitter.width) * half.emitter.height;
   double level = 0, share = 0;

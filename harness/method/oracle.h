@@ -63,9 +63,10 @@ class Pyramid {
 };
 
 enum class Rule { fis, mfis };
-// Light `i` of `count` by filtered importance sampling [MFIS16 Eq. 1–5, Alg. 1]; `fixed` is its lattice point in
-// 32-bit fixed point.
-Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count, glm::uvec2 fixed);
+// Light `i` of `count` by filtered importance sampling [MFIS16 Eq. 1–5, Alg. 1]; `fixed` is its lattice point
+// in 32-bit fixed point.
+Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count,
+                    glm::uvec2 fixed);
 
 double luminance(const glm::dvec3& c);
 

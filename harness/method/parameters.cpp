@@ -25,7 +25,8 @@ void check(const MethodInfo& method, const ParameterInfo& parameter, const Json&
   }
   const double number = value.get<double>();
   if (!(number >= parameter.minimum && number <= parameter.maximum)) {
-    throw wrong(fmt::format("is {} but must be within {} … {}", number, parameter.minimum, parameter.maximum));
+    throw wrong(
+        fmt::format("is {} but must be within {} … {}", number, parameter.minimum, parameter.maximum));
   }
 }
 

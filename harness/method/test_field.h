@@ -5,9 +5,9 @@
 
 #include <random>
 
+#include "base/file.h"
 #include "method/filtered_sampling.h"
 #include "method/oracle.h"
-#include "base/file.h"
 
 namespace vsglbench {
 
@@ -26,7 +26,8 @@ inline std::vector<float> pdf_pyramid(const oracle::Half& half) {
       for (uint32_t bx = 0; bx < (w + b - 1) / b; ++bx) {
         double sum = 0, n = 0;
         for (uint32_t y = by * b; y < std::min(h, (by + 1) * b); ++y) {
-          for (uint32_t x = bx * b; x < std::min(w, (bx + 1) * b); ++x, n += 1) sum += half.pdf[size_t(y) * w + x];
+          for (uint32_t x = bx * b; x < std::min(w, (bx + 1) * b); ++x, n += 1)
+            sum += half.pdf[size_t(y) * w + x];
         }
         all.push_back(static_cast<float>(sum / n));
       }

@@ -162,10 +162,11 @@ struct CaseResult {
 // Where a run's time went, in seconds, added up over its interruptions.
 struct WallTime {
   double total_s = 0;
-  double device_s = 0;       // frames, from first to last timestamp, warm-up and A/A twin included
-  double references_s = 0;   // computing or reading ground truth, and building the ray tracer
-  double visibility_s = 0;   // shadow rays of exact visibility
-  double compilation_s = 0;  // opening each case and its first frame, but for the time above: kernels, pipelines
+  double device_s = 0;      // frames, from first to last timestamp, warm-up and A/A twin included
+  double references_s = 0;  // computing or reading ground truth, and building the ray tracer
+  double visibility_s = 0;  // shadow rays of exact visibility
+  double compilation_s =
+      0;  // opening each case and its first frame, but for the time above: kernels, pipelines
   double overhead_ratio = 0;  // (total − references − visibility − compilation) / device; 0 without frames
 };
 

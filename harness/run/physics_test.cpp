@@ -1,5 +1,5 @@
-// Physics across rooms: the rasteriser against rays, brute force against the reference, clustering against brute
-// force. Small frames; RSMs of 32² to 128².
+// Physics across rooms: the rasteriser against rays, brute force against the reference, clustering against
+// brute force. Small frames; RSMs of 32² to 128².
 #include <gtest/gtest.h>
 
 #include "base/file.h"
@@ -20,15 +20,23 @@ constexpr uint32_t kWidth = 96, kHeight = 54;
 class Laboratory {
  public:
   explicit Laboratory(const std::string& name)
-      : scene(load_scene(name, {data_root() / "scenes", {}})), tracer(scene), kernels(device()), stage(device(), kernels, scene) {}
+      : scene(load_scene(name, {data_root() / "scenes", {}})),
+        tracer(scene),
+        kernels(device()),
+        stage(device(), kernels, scene) {}
 
   static Device& device() {
     static Device d;
     return d;
   }
 
-  Image render(const std::string& method, const Json& own, uint32_t rsm, uint32_t lights, Visibility visibility) {
-    FrameParameters p{.width = kWidth, .height = kHeight, .rsm = rsm, .lights = lights, .importance_lights = 256,
+  Image render(const std::string& method, const Json& own, uint32_t rsm, uint32_t lights,
+               Visibility visibility) {
+    FrameParameters p{.width = kWidth,
+                      .height = kHeight,
+                      .rsm = rsm,
+                      .lights = lights,
+                      .importance_lights = 256,
                       .visibility = visibility};
     const MethodInfo& info = find_method(method);
     Frame* self = nullptr;
@@ -43,7 +51,8 @@ class Laboratory {
   const ReferenceResult& reference(bool occlusion) {
     auto& slot = references_[occlusion];
     if (!slot) {
-      slot = compute_reference(tracer, {.width = kWidth, .height = kHeight, .samples = 2048, .occlusion = occlusion});
+      slot = compute_reference(tracer,
+                               {.width = kWidth, .height = kHeight, .samples = 2048, .occlusion = occlusion});
     }
     return *slot;
   }
@@ -63,7 +72,8 @@ class Laboratory {
 
  private:
   std::vector<uint32_t> bits(Frame& frame, const std::vector<LightPoint>& points) {
-    const auto position = download_map(frame.gbuffer().maps[0]), normal = download_map(frame.gbuffer().maps[2]);
+    const auto position = download_map(frame.gbuffer().maps[0]),
+               normal = download_map(frame.gbuffer().maps[2]);
     std::vector<ReceiverPoint> receivers;
     for (size_t i = 0; i < position.size(); ++i) {
       receivers.push_back({glm::vec3(position[i]), glm::vec3(normal[i]), position[i].w > 0});
@@ -117,14 +127,15 @@ TEST(Clustering, ConvergesToBruteForceWithTheSameLobes) {
   EXPECT_LT(previous, 1.0);
 }
 
-// The G-buffer holds what rays through the pixel centres hit, textures and normal maps included; triangle edges
-// that fall on the other side of a pixel centre are the only difference.
+// The G-buffer holds what rays through the pixel centres hit, textures and normal maps included; triangle
+// edges that fall on the other side of a pixel centre are the only difference.
 TEST(Rasteriser, SeesWhatRaysSee) {
   Laboratory lab("colonnade");
   lab.render("vpl", Json::object(), 64, 1, Visibility::none);
   const DeferredTargets& g = lab.stage.targets(Half::gbuffer, kWidth, kHeight);
-  const auto position = download_map(g.maps[0]), normal = download_map(g.maps[1]), geometric = download_map(g.maps[2]),
-             diffuse = download_map(g.maps[3]), f0 = download_map(g.maps[4]);
+  const auto position = download_map(g.maps[0]), normal = download_map(g.maps[1]),
+             geometric = download_map(g.maps[2]), diffuse = download_map(g.maps[3]),
+             f0 = download_map(g.maps[4]);
   const View view = camera_view(lab.scene.camera, kWidth, kHeight);
   size_t different = 0, compared = 0;
   for (uint32_t y = 0; y < kHeight; ++y) {

@@ -36,7 +36,7 @@ struct Material {
   float specular = 1;        // 0 makes the material purely Lambertian
   int base_color_texture = -1, metallic_roughness_texture = -1, normal_texture = -1;  // indices or -1
   float normal_scale = 1;
-  float alpha_cutoff = -1;  // >= 0: texels with alpha below it are holes (glTF MASK)
+  float alpha_cutoff = -1;   // >= 0: texels with alpha below it are holes (glTF MASK)
   bool double_sided = true;  // recorded only; see above
 };
 
@@ -50,17 +50,17 @@ struct Batch {
 struct Light {
   enum class Type { spot, directional };
   Type type = Type::spot;
-  glm::vec3 position{0};   // spot: apex; directional: centre of the lit rectangle's near side
+  glm::vec3 position{0};  // spot: apex; directional: centre of the lit rectangle's near side
   glm::vec3 direction{0, -1, 0}, up{0, 0, 1};  // unit, orthogonal
-  float fov = 0.8f;             // spot: full angle of the square frustum, radians
-  glm::vec2 half_extent{1, 1};  // directional: half width and height of the rectangle, metres
+  float fov = 0.8f;                            // spot: full angle of the square frustum, radians
+  glm::vec2 half_extent{1, 1};                 // directional: half width and height of the rectangle, metres
   float near = 0.01f, far = 1000;  // along `direction`, for the rasteriser only; geometry lies between
-  glm::vec3 power{1};           // spot: intensity; directional: irradiance
+  glm::vec3 power{1};              // spot: intensity; directional: irradiance
 };
 
 struct Camera {
   glm::vec3 position{0}, direction{0, 0, -1}, up{0, 1, 0};  // unit, orthogonal
-  float vfov = 0.8f;  // radians
+  float vfov = 0.8f;                                        // radians
   float near = 0.01f, far = 1000;
 };
 
@@ -70,9 +70,9 @@ struct Scene {
   std::vector<glm::vec3> positions, normals;  // one a vertex; normals are unit
   std::vector<glm::vec4> tangents;            // xyz unit, w = ±1: bitangent = w cross(normal, tangent)
   std::vector<glm::vec2> uvs;
-  std::vector<glm::uvec3> triangles;          // counter-clockwise from outside (used for nothing but facing)
-  std::vector<Batch> batches;                 // ordered by first_triangle; cover all triangles
-  std::vector<uint32_t> triangle_material;    // one a triangle
+  std::vector<glm::uvec3> triangles;        // counter-clockwise from outside (used for nothing but facing)
+  std::vector<Batch> batches;               // ordered by first_triangle; cover all triangles
+  std::vector<uint32_t> triangle_material;  // one a triangle
   std::vector<Material> materials;
   std::vector<Texture> textures;
   glm::vec3 bounds_min{0}, bounds_max{0};

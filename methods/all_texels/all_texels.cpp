@@ -34,7 +34,11 @@ const MethodInfo& method_all_texels() {
       .summary = "every RSM texel a light: the answer without clustering",
       .source = "-",
       .takes_light_count = false,
-      .parameters = {{"shading", "exact", "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]", 0, 0,
+      .parameters = {{"shading",
+                      "exact",
+                      "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]",
+                      0,
+                      0,
                       {"exact", "vsgl16"}}},
       .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
         return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");
