@@ -17,6 +17,9 @@ function(vsglbench_tests target kind labels)
   set(program ${target}${kind}_test)
   add_executable(${program} ${ARGN})
   vsglbench_options(${program})
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${program} PRIVATE -O1)  # what is tested is optimised; the tests need not be
+  endif()
   target_link_libraries(${program} PRIVATE ${target} GTest::gtest GTest::gtest_main ${VSGLBENCH_TEST_LINK})
   target_compile_definitions(${program} PRIVATE VSGLBENCH_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                 VSGLBENCH_BINARY_DIR="${CMAKE_BINARY_DIR}")

@@ -32,8 +32,8 @@ struct ReferenceParameters {
   uint64_t seed = 1;
   bool occlusion = true;  // false: nothing lies between x1 and x2 (light -> x1 and x2 -> eye stay tested)
   uint32_t strategies = strategy_all;
-  double time_limit =
-      0;  // seconds; > 0 may end after any even number of batches, so the result depends on the machine
+  // Seconds; > 0 may end the work after any even number of batches: the result depends on the machine then.
+  double time_limit = 0;
   unsigned threads = 0;  // 0: all; changes no bit of the result
 };
 
