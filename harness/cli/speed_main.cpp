@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     ReferenceParameters small;
     small.width = 240;
     small.height = 136;
-    small.samples = 32;
+    small.samples = 256;
     bool met =
         print("shading, SG lobe evaluations", lobe_evaluations_per_second(scene) * 1e-6, "M/s", 120, true);
     met &= print("reference rays/s over a bare Embree loop's", reference_speed_ratio(scene, small), "x", 0.6,
