@@ -7,7 +7,7 @@
 
 namespace vsglbench {
 
-// Levenshtein distance in single-character edits.
+// Levenshtein distance in single-character edits; upper and lower case are one.
 size_t edit_distance(std::string_view a, std::string_view b);
 
 // The known name with the least edit distance; empty when `known` is empty.

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   CLI::App app("vsglbench: a benchmark of virtual-light methods for one-bounce indirect illumination");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene or output, 3 no usable "
+      "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene, plugin or output, 3 no usable "
       "device.\n"
       "Example: vsglbench run configs/quick.json");
   bool quiet = false, verbose = false;

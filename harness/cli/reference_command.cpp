@@ -29,12 +29,14 @@ void compute(const ReferenceOptions& options) {
   parameters.occlusion = !options.no_occlusion;
   bool cached = false;
   const ReferenceResult r = load_or_compute(scene, parameters, &cached);
-  const std::string stem = file_name(scene.name);
+  const std::string stem = file_name(scene.name) + (options.no_occlusion ? ".no-occlusion" : "");
   write_exr(options.out / (stem + ".reference.exr"), r.mean);
   write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
-  fmt::print("{}: {} triangles, {} samples, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE, hash {}\n",
-             scene.name, scene.triangles.size(), r.samples, static_cast<double>(r.rays) * 1e-6,
-             format_duration(r.seconds), cached ? "from the cache" : "computed", r.noise_floor_smape, r.hash);
+  fmt::print(
+      "{}{}: {} triangles, {} samples, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE, hash {}\n",
+      scene.name, options.no_occlusion ? " without occlusion" : "", scene.triangles.size(), r.samples,
+      static_cast<double>(r.rays) * 1e-6, format_duration(r.seconds), cached ? "from the cache" : "computed",
+      r.noise_floor_smape, r.hash);
   fmt::print("{}\n", (options.out / (stem + ".reference.exr")).string());
 }
 

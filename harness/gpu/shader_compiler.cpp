@@ -82,9 +82,11 @@ EShLanguage stage_of(const fs::path& path) {
 [[noreturn]] void report(const fs::path& path, const std::string& log) {
   std::smatch match;
   static const std::regex error("ERROR: ([^\n]*)");
-  const std::string first =
-      std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
-  throw fail(ErrorKind::plugin, "{}: {}", path.string(), first);
+  std::string what = std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
+  what.resize(what.find_last_not_of(' ') + 1);
+  // An error in an include names that file; the kernel it belongs to goes first.
+  if (what.starts_with(path.string())) throw Error(ErrorKind::plugin, what);
+  throw fail(ErrorKind::plugin, "{}: {}", path.string(), what);
 }
 
 // Compiler errors carry the file's name because the shader was given it.
@@ -143,20 +145,23 @@ std::vector<uint32_t> compile(const Source& source, const TBuiltInResource& limi
   return spirv;
 }
 
+// A cached file is the hash of the words, in hex, and then the words: damage shows, and is compiled anew.
+constexpr size_t kHashDigits = 32;
+
 bool read_cached(const fs::path& path, std::vector<uint32_t>* spirv) {
   std::error_code ec;
   if (!fs::is_regular_file(path, ec)) return false;
-  const auto bytes = read_bytes(path);
-  constexpr uint32_t magic = 0x07230203;
-  spirv->resize(bytes.size() / 4);
-  if (bytes.size() < 20 || bytes.size() % 4 != 0) return false;
-  std::memcpy(spirv->data(), bytes.data(), bytes.size());
-  return spirv->front() == magic;
+  const std::string text = read_text(path);
+  if (text.size() <= kHashDigits || (text.size() - kHashDigits) % 4 != 0) return false;
+  spirv->resize((text.size() - kHashDigits) / 4);
+  std::memcpy(spirv->data(), text.data() + kHashDigits, text.size() - kHashDigits);
+  return Hasher().array(*spirv).hex() == text.substr(0, kHashDigits);
 }
 
 void write_cached(const fs::path& path, const std::vector<uint32_t>& spirv) {
   try {
-    write_text(path, {reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4});
+    const std::string words(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
+    write_text(path, Hasher().array(spirv).hex() + words);
   } catch (const Error& e) {
     log_warning("shader cache: {}", e.what());  // a cache that can't be written costs time, not the run
   }
@@ -188,6 +193,23 @@ std::vector<uint32_t> compile_shader(const fs::path& path, const ShaderDefines& 
   }
   statistics.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return spirv;
+}
+
+std::string kernel_sources_hash() {
+  std::map<std::string, fs::path> files;  // by relative path, so that the order is everywhere the same
+  for (const char* folder : {"harness", "methods"}) {
+    std::error_code ec;
+    for (const auto& entry : fs::recursive_directory_iterator(data_root() / folder, ec)) {
+      const std::string suffix = entry.path().extension().string();
+      const bool kernel = suffix == ".comp" || suffix == ".glsl" || suffix == ".vert" || suffix == ".frag";
+      if (kernel || entry.path().filename() == "types.h") {
+        files[fs::relative(entry.path(), data_root()).string()] = entry.path();
+      }
+    }
+  }
+  Hasher hasher;
+  for (const auto& [name, path] : files) hasher.text(name).text(read_text(path));
+  return hasher.hex();
 }
 
 const ShaderStatistics& shader_statistics() { return statistics; }

@@ -19,6 +19,10 @@ using ShaderDefines = std::map<std::string, std::string>;
 std::vector<uint32_t> compile_shader(const std::filesystem::path& path, const ShaderDefines& defines,
                                      const std::vector<std::filesystem::path>& include_dirs);
 
+// Hash over every kernel and include of the harness and its methods as they are on disk now: two runs whose
+// kernels were edited in between differ in it, whatever the binary is.
+std::string kernel_sources_hash();
+
 // What compile_shader did since the program began.
 struct ShaderStatistics {
   unsigned compiled = 0, from_cache = 0;

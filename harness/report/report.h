@@ -174,6 +174,7 @@ struct Report {
   std::string created;  // UTC, "2024-05-01T12:00:00Z"
   std::vector<std::string> argv;
   GitState git;
+  std::string kernels;  // kernel_sources_hash(): kernels are read when the program runs, not when it is built
   DeviceReport device;
   HostInfo host;
   Json config = Json::object();

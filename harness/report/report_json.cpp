@@ -197,6 +197,7 @@ void fields(auto& a, Is<Report> auto& v) {
   a("created", v.created);
   a("argv", v.argv);
   a("git", v.git);
+  a.unless_empty("kernels", v.kernels);
   a.object("environment", [&](auto& inner) {
     inner("device", v.device);
     inner("host", v.host);

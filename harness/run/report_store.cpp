@@ -20,7 +20,7 @@ bool same_machine(const DeviceReport& a, const DeviceReport& b) {
 
 bool same_run(const Report& a, const Report& b) {
   return a.config == b.config && a.git.commit == b.git.commit && a.git.dirty == b.git.dirty &&
-         same_machine(a.device, b.device);
+         a.kernels == b.kernels && same_machine(a.device, b.device);
 }
 
 void move(const fs::path& from, const fs::path& to) {

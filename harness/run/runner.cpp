@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "gpu/shader_compiler.h"
 #include "measure/stopwatch.h"
 #include "report/environment.h"
 #include "run/report_store.h"
@@ -105,6 +106,7 @@ Report fresh_report(const RunOptions& options, const Config& config, const Devic
   report.created = utc_now();
   report.argv = options.argv;
   report.git = build_git();
+  report.kernels = kernel_sources_hash();
   report.device = describe(device);
   report.host = host_info();
   report.config = config.resolved;
