@@ -1,14 +1,31 @@
 # `cmake --install build/release --prefix DIR` makes a folder that runs wherever it is copied, on a machine with a
-# C library as new as the one it was built with and a Vulkan driver: the binary, everything it reads at run time,
-# and the shared libraries beside it.
-set_target_properties(vsglbench vsglbench-speed PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
-install(TARGETS vsglbench vsglbench-speed RUNTIME_DEPENDENCY_SET vsglbench_libraries DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(RUNTIME_DEPENDENCY_SET vsglbench_libraries DESTINATION lib
-        PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|resolv)\\.so"
-        POST_EXCLUDE_REGEXES ".*/ld-linux.*" ".*/lib(c|m|dl|rt|pthread|resolv)\\.so.*")
-set(data share/vsglbench)
-install(DIRECTORY harness methods DESTINATION ${data}
-        FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.vert" PATTERN "*.frag" PATTERN "types.h"
-        PATTERN "*.schema.json")
-install(DIRECTORY scenes configs DESTINATION ${data})
-install(FILES README.md LICENSE DESTINATION ${data})
+# C library as new as the one it was built with and a Vulkan driver: the programme, the methods, everything read at
+# run time, the shared libraries beside it, and what find_package(vsglbench) needs to build a method.
+set(VSGLBENCH_DATA share/vsglbench)
+
+# A shared library that plugins link, with its headers.
+function(vsglbench_install_library target room)
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS ${target} EXPORT vsglbench RUNTIME_DEPENDENCY_SET vsglbench_libraries LIBRARY DESTINATION lib)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/harness/${room} DESTINATION include/vsglbench
+          FILES_MATCHING PATTERN "*.h" PATTERN "*test*" EXCLUDE PATTERN "oracle.h" EXCLUDE)
+endfunction()
+
+function(vsglbench_install_programmes)
+  set_target_properties(vsglbench vsglbench-speed PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
+  install(TARGETS vsglbench EXPORT vsglbench RUNTIME_DEPENDENCY_SET vsglbench_libraries DESTINATION bin)
+  install(TARGETS vsglbench-speed RUNTIME_DEPENDENCY_SET vsglbench_libraries DESTINATION bin)
+  install(RUNTIME_DEPENDENCY_SET vsglbench_libraries DESTINATION lib
+          PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|resolv)\\.so"
+          POST_EXCLUDE_REGEXES ".*/ld-linux.*" ".*/lib(c|m|dl|rt|pthread|resolv)\\.so.*"
+          DIRECTORIES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+  install(DIRECTORY harness methods DESTINATION ${VSGLBENCH_DATA}
+          FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.vert" PATTERN "*.frag" PATTERN "types.h"
+          PATTERN "*.schema.json")
+  install(DIRECTORY methods/_template DESTINATION ${VSGLBENCH_DATA}/methods)
+  install(DIRECTORY scenes configs DESTINATION ${VSGLBENCH_DATA})
+  install(FILES README.md LICENSE DESTINATION ${VSGLBENCH_DATA})
+  install(FILES methods/README.md DESTINATION ${VSGLBENCH_DATA}/methods)
+  install(EXPORT vsglbench NAMESPACE vsglbench:: DESTINATION lib/cmake/vsglbench FILE vsglbench-targets.cmake)
+  install(FILES cmake/vsglbench-config.cmake cmake/VsglbenchMethod.cmake DESTINATION lib/cmake/vsglbench)
+endfunction()

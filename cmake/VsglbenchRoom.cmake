@@ -1,7 +1,8 @@
-# vsglbench_room(NAME [SOURCES ...] [LINK ...] [TESTS x_test.cpp ...] [GPU_TESTS ...] [SLOW_TESTS ...])
+# vsglbench_room(NAME [PUBLIC_LIBRARY] [SOURCES ...] [LINK ...] [PRIVATE_LINK ...] [TESTS x_test.cpp ...]
+#                [GPU_TESTS ...] [SLOW_TESTS ...])
 # One room of the house: a static library vsglbench_NAME with include root harness/, and one test
 # program per kind of test. GPU_TESTS carry the CTest label `gpu` (lavapipe counts), SLOW_TESTS the
-# labels `gpu;slow`.
+# labels `gpu;slow`. PUBLIC_LIBRARY: a shared one, installed with its headers, that plugins link too.
 function(vsglbench_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
   if(VSGLBENCH_SANITIZE)
@@ -28,17 +29,26 @@ function(vsglbench_tests target kind labels)
 endfunction()
 
 function(vsglbench_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;TESTS;GPU_TESTS;SLOW_TESTS;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(ROOM "PUBLIC_LIBRARY" "" "SOURCES;LINK;PRIVATE_LINK;TESTS;GPU_TESTS;SLOW_TESTS;TEST_LINK"
+                        ${ARGN})
   set(target vsglbench_${name})
+  set(include_root $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/harness> $<INSTALL_INTERFACE:include/vsglbench>)
   if(ROOM_SOURCES)
-    add_library(${target} STATIC ${ROOM_SOURCES})
+    set(kind STATIC)
+    if(ROOM_PUBLIC_LIBRARY)
+      set(kind SHARED)
+    endif()
+    add_library(${target} ${kind} ${ROOM_SOURCES})
     vsglbench_options(${target})
-    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/harness)
-    target_link_libraries(${target} PUBLIC ${ROOM_LINK})
+    target_include_directories(${target} PUBLIC ${include_root})
+    target_link_libraries(${target} PUBLIC ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK})
   else()
     add_library(${target} INTERFACE)
-    target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/harness)
+    target_include_directories(${target} INTERFACE ${include_root})
     target_link_libraries(${target} INTERFACE ${ROOM_LINK})
+  endif()
+  if(ROOM_PUBLIC_LIBRARY)
+    vsglbench_install_library(${target} ${name})
   endif()
   set(VSGLBENCH_TEST_LINK ${ROOM_TEST_LINK})
   vsglbench_tests(${target} "" "host" ${ROOM_TESTS})

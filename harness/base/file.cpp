@@ -1,5 +1,6 @@
 #include "base/file.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -87,14 +88,19 @@ fs::path cache_directory() {
   return fs::path(".cache") / "vsglbench";
 }
 
+fs::path library_directory() {
+  Dl_info info{};
+  ::dladdr(reinterpret_cast<const void*>(&library_directory), &info);
+  std::error_code ec;
+  const fs::path library = fs::canonical(info.dli_fname ? info.dli_fname : "/proc/self/exe", ec);
+  return library.parent_path();
+}
+
 fs::path data_root() {
   if (const char* v = std::getenv("VSGLBENCH_ROOT"); v && *v) return v;
   std::error_code ec;
-  const fs::path self = fs::read_symlink("/proc/self/exe", ec);
-  if (!ec) {
-    const fs::path installed = self.parent_path().parent_path() / "share" / "vsglbench";
-    if (fs::exists(installed / "harness" / "shaders", ec)) return installed;
-  }
+  const fs::path installed = library_directory().parent_path() / "share" / "vsglbench";
+  if (fs::exists(installed / "harness" / "shaders", ec)) return installed;
   return VSGLBENCH_SOURCE_DIR;
 }
 

@@ -27,8 +27,11 @@ void ensure_writable_directory(const std::filesystem::path& dir);
 // $VSGLBENCH_CACHE, else $XDG_CACHE_HOME/vsglbench, else $HOME/.cache/vsglbench, else ./.cache.
 std::filesystem::path cache_directory();
 
+// Folder of this library, "lib" of an installed or built vsglbench.
+std::filesystem::path library_directory();
+
 // Folder of the installed or built data (kernels, scenes, configs, schemas): $VSGLBENCH_ROOT, else
-// ../share/vsglbench beside the binary, else the source tree it was built from.
+// ../share/vsglbench beside library_directory(), else the source tree it was built from.
 std::filesystem::path data_root();
 
 }  // namespace vsglbench

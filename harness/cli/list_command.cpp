@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "cli/command.h"
-#include "method/method.h"
+#include "method/registry.h"
 #include "run/config.h"
 #include "run/runner.h"
 #include "scene/scene_file.h"
@@ -16,21 +16,8 @@ namespace {
 Json list_methods() {
   Json out = Json::array();
   for (const MethodInfo* method : all_methods()) {
-    Json parameters = Json::array();
-    for (const auto& p : method->parameters) {
-      Json entry = {{"name", p.name}, {"default", p.default_value}, {"description", p.description}};
-      if (p.default_value.is_string()) {
-        entry["choices"] = p.choices;
-      } else {
-        entry["minimum"] = p.minimum;
-        entry["maximum"] = p.maximum;
-      }
-      parameters.push_back(entry);
-    }
-    out.push_back({{"name", method->name},
-                   {"summary", method->summary},
-                   {"source", method->source},
-                   {"parameters", parameters}});
+    out.push_back(to_json(*method));
+    if (!method->refused.empty()) out.back()["summary"] = "refused: " + method->refused;
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "frame/frame.h"
 #include "measure/statistics.h"
+#include "method/registry.h"
 #include "reference/speed.h"
 #include "run/config.h"
 #include "run/runner.h"
@@ -28,7 +29,7 @@ double lobe_evaluations_per_second(const Scene& scene) {
   FrameParameters p;
   p.visibility = Visibility::none;
   p.importance_lights = 64;
-  const MethodInfo& mfis = find_method("mfis");
+  const MethodInfo& mfis = load_method("mfis", device.info());
   Frame frame(stage, mfis, resolve_parameters(mfis, Json::object()), p, nullptr);
   std::vector<double> seconds;
   for (int i = 0; i < 8; ++i) {

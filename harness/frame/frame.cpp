@@ -12,12 +12,6 @@ namespace {
 
 std::filesystem::path kernel_path(const char* file) { return data_root() / "harness" / "frame" / file; }
 
-std::filesystem::path method_folder(const std::string& name) {
-  std::string folder = name;
-  std::replace(folder.begin(), folder.end(), '-', '_');
-  return data_root() / "methods" / folder;
-}
-
 ShaderDefines light_define(LightKind kind) { return {{"LIGHT_VPL", kind == LightKind::vpl ? "1" : "0"}}; }
 
 // SplitMix64: one well-mixed word a seed.
@@ -75,7 +69,7 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
              const FrameParameters& parameters, ExactVisibility exact)
     : stage_(stage),
       parameters_(parameters),
-      context_(stage.kernels, stage.scratch, method_folder(method.name)),
+      context_(stage.kernels, stage.scratch, method.folder),
       method_(method.create(context_, method_parameters)),
       exact_(std::move(exact)),
       recorder_(stage.device),

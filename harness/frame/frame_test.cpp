@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "method/registry.h"
 #include "scene/scene_file.h"
 
 using namespace vsglbench;
@@ -27,7 +28,7 @@ struct Session {
   explicit Session(const Scene& s, Device& d = device()) : kernels(d), stage(d, kernels, s) {}
   std::unique_ptr<Frame> frame(const std::string& method, FrameParameters p,
                                const Json& own = Json::object()) {
-    const MethodInfo& info = find_method(method);
+    const MethodInfo& info = load_method(method, kernels.device().info());
     const uint64_t pixels = uint64_t(p.width) * p.height;
     return std::make_unique<Frame>(
         stage, info, resolve_parameters(info, own), p,

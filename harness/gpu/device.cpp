@@ -156,6 +156,8 @@ void Device::create_device() {
                                       .pQueuePriorities = &priority};
   NeededFeatures features;
   for (const auto& entry : features.entries()) *entry.flag = VK_TRUE;
+  const auto has = [&](const char* name) { return std::ranges::count(info_.features, name) > 0; };
+  for (const auto& entry : features.optional_entries()) *entry.flag = has(entry.name) ? VK_TRUE : VK_FALSE;
   const VkDeviceCreateInfo create{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.features,
                                   .queueCreateInfoCount = 1,

@@ -51,6 +51,48 @@ std::vector<NeededFeatures::Entry> NeededFeatures::entries() {
   };
 }
 
+std::vector<NeededFeatures::Entry> NeededFeatures::optional_entries() {
+  return {
+      {"shaderFloat64", &features.features.shaderFloat64},
+      {"shaderInt16", &features.features.shaderInt16},
+      {"shaderFloat16", &vulkan12.shaderFloat16},
+      {"shaderInt8", &vulkan12.shaderInt8},
+      {"storageBuffer16BitAccess", &vulkan11.storageBuffer16BitAccess},
+      {"storageBuffer8BitAccess", &vulkan12.storageBuffer8BitAccess},
+      {"shaderBufferInt64Atomics", &vulkan12.shaderBufferInt64Atomics},
+      {"shaderSharedInt64Atomics", &vulkan12.shaderSharedInt64Atomics},
+      {"shaderSubgroupExtendedTypes", &vulkan12.shaderSubgroupExtendedTypes},
+      {"subgroupSizeControl", &vulkan13.subgroupSizeControl},
+      {"computeFullSubgroups", &vulkan13.computeFullSubgroups},
+  };
+}
+
+std::vector<std::string> optional_features(VkPhysicalDevice device) {
+  std::vector<std::string> names;
+  NeededFeatures has;
+  vkGetPhysicalDeviceFeatures2(device, &has.features);
+  for (const auto& entry : has.optional_entries()) {
+    if (*entry.flag) names.push_back(entry.name);
+  }
+  VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup};
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT)) return names;
+  constexpr std::pair<VkSubgroupFeatureFlagBits, const char*> kinds[] = {
+      {VK_SUBGROUP_FEATURE_BASIC_BIT, "subgroup.basic"},
+      {VK_SUBGROUP_FEATURE_VOTE_BIT, "subgroup.vote"},
+      {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, "subgroup.arithmetic"},
+      {VK_SUBGROUP_FEATURE_BALLOT_BIT, "subgroup.ballot"},
+      {VK_SUBGROUP_FEATURE_SHUFFLE_BIT, "subgroup.shuffle"},
+      {VK_SUBGROUP_FEATURE_SHUFFLE_RELATIVE_BIT, "subgroup.shuffle_relative"},
+      {VK_SUBGROUP_FEATURE_CLUSTERED_BIT, "subgroup.clustered"},
+      {VK_SUBGROUP_FEATURE_QUAD_BIT, "subgroup.quad"}};
+  for (const auto& [bit, name] : kinds) {
+    if (subgroup.supportedOperations & bit) names.push_back(name);
+  }
+  return names;
+}
+
 int find_queue_family(VkPhysicalDevice device, uint32_t* timestamp_bits) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
@@ -112,6 +154,7 @@ DeviceInfo describe_device(VkPhysicalDevice device, uint32_t index) {
   }
   find_queue_family(device, &info.timestamp_valid_bits);
   info.missing = missing_features(device);
+  if (info.missing.empty()) info.features = optional_features(device);
   return info;
 }
 

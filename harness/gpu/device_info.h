@@ -20,6 +20,8 @@ struct NeededFeatures {
   NeededFeatures(const NeededFeatures&) = delete;
   NeededFeatures& operator=(const NeededFeatures&) = delete;
   std::vector<Entry> entries();
+  // Features that a method may ask for (MethodInfo::device_features); enabled where the device has them.
+  std::vector<Entry> optional_entries();
 
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   VkPhysicalDeviceVulkan11Features vulkan11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
@@ -30,6 +32,9 @@ struct NeededFeatures {
 // First family with graphics and compute, or -1.
 int find_queue_family(VkPhysicalDevice device, uint32_t* timestamp_bits);
 std::vector<std::string> missing_features(VkPhysicalDevice device);
+// Of optional_entries(), by Vulkan's name, and `subgroup.<kind>` for each kind of subgroup operation that
+// compute shaders may use.
+std::vector<std::string> optional_features(VkPhysicalDevice device);
 DeviceInfo describe_device(VkPhysicalDevice device, uint32_t index);
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -80,21 +81,26 @@ struct ParameterInfo {
 };
 
 struct MethodInfo {
-  std::string name;               // as a config writes it
   std::string summary;            // one line
   std::string source;             // paper, section
   bool takes_light_count = true;  // false: the number of lights follows from the RSM
   std::vector<ParameterInfo> parameters;
-  std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters);
+  // Optional features that the device must have, as `vsglbench list devices` names them.
+  std::vector<std::string> device_features;
+  // How far the lights' summed power may be from the texels', |Σ light/Σ texel - 1|, in the mean over shifts
+  // of the lattice; the conformance kit holds the method to it.
+  double flux_bound = 0.05;
+  std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters) = nullptr;
+
+  // Set by the host when the plugin is found.
+  std::string name;               // as a config writes it: the plugin file's, without ".so"
+  std::filesystem::path library;  // the plugin file
+  std::filesystem::path folder;   // its kernels
+  std::string refused;            // why it can't be used; empty: it fits
 };
 
 // Fills defaults in and checks: an unknown parameter, a wrong type or a value out of range throws
 // Error(config), naming the nearest known one.
 Json resolve_parameters(const MethodInfo& method, const Json& given);
-
-// Every method, in the order of methods/CMakeLists.txt.
-const std::vector<const MethodInfo*>& all_methods();
-// Throws Error(config) naming the nearest method.
-const MethodInfo& find_method(const std::string& name);
 
 }  // namespace vsglbench

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "method/filtered_sampling.h"
 #include "method/oracle.h"
+#include "method/registry.h"
 
 namespace vsglbench {
 
@@ -42,9 +43,9 @@ class MethodBench {
   explicit MethodBench(const std::string& method, const Json& parameters = Json::object())
       : kernels_(test_device()),
         scratch_(test_device()),
-        context_(kernels_, scratch_, data_root() / "methods" / method),
         recorder_(test_device()),
-        info_(find_method(method)),
+        info_(load_method(method, test_device().info())),
+        context_(kernels_, scratch_, info_.folder),
         method_(info_.create(context_, resolve_parameters(info_, parameters))) {}
 
   template <class Light>
@@ -85,9 +86,9 @@ class MethodBench {
 
   KernelLibrary kernels_;
   ScratchPool scratch_;
-  MethodContext context_;
   Recorder recorder_;
   const MethodInfo& info_;
+  MethodContext context_;
   std::unique_ptr<Method> method_;
   std::array<DeviceImage, 5> maps_;
   Buffer pdf_;

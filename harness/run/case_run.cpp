@@ -4,6 +4,7 @@
 
 #include "base/log.h"
 #include "measure/stopwatch.h"
+#include "method/registry.h"
 
 namespace vsglbench {
 
@@ -43,7 +44,7 @@ void CaseRun::open(Stage& stage, const ReferenceResult& reference, ExactVisibili
   const Stopwatch watch;
   reference_ = &reference;
   attempt([&] {
-    frame_ = std::make_unique<Frame>(stage, find_method(case_.method), case_.method_parameters, case_.frame,
+    frame_ = std::make_unique<Frame>(stage, load_method(case_.method, stage.device.info()), case_.method_parameters, case_.frame,
                                      std::move(exact));
   });
   wall_->compilation_s += watch.seconds();

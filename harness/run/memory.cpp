@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "method/registry.h"
 #include "reference/footprint.h"
 
 namespace vsglbench {

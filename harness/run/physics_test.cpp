@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "frame/frame.h"
 #include "image/metrics.h"
+#include "method/registry.h"
 #include "reference/reference.h"
 #include "reference/visibility.h"
 #include "scene/scene_file.h"
@@ -38,7 +39,7 @@ class Laboratory {
                       .lights = lights,
                       .importance_lights = 256,
                       .visibility = visibility};
-    const MethodInfo& info = find_method(method);
+    const MethodInfo& info = load_method(method, device().info());
     Frame* self = nullptr;
     Frame frame(stage, info, resolve_parameters(info, own), p,
                 [&](const std::vector<LightPoint>& points) { return bits(*self, points); });

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "method/registry.h"
 
 namespace vsglbench {
 namespace {
@@ -81,13 +82,17 @@ class Entry {
     }
   }
 
+  // A plugin that was refused costs its own cases and nothing else: they are made, and fail. What parameters it
+  // has is not known.
+  bool usable() const { return method_.refused.empty(); }
+
   void check_keys() const {
     std::vector<std::string> known = case_keys();
     known.push_back("method");
     for (const auto& parameter : method_.parameters) known.push_back(parameter.name);
     for (const auto& [key, value] : json_.items()) {
       const std::string at = at_ + "/" + pointer_token(key);
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
+      if (usable() && std::find(known.begin(), known.end(), key) == known.end()) {
         throw doc_.error(at,
                          fmt::format("unknown key '{}' for {}{}", key, method_.name, suggestion(key, known)));
       }
@@ -103,6 +108,10 @@ class Entry {
       if (key != "N" || method_.takes_light_count) add_axis(key, true);
     }
     for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
+    if (usable()) return;
+    for (const auto& [key, value] : json_.items()) {
+      if (key != "method" && !case_defaults().contains(key)) add_axis(key, false);
+    }
   }
 
   // From the entry, else from the config's own lists, else the default.
@@ -140,7 +149,7 @@ class Entry {
       if (axis.named) names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(axis.key, value));
     }
     try {
-      c.method_parameters = resolve_parameters(method_, own);
+      c.method_parameters = usable() ? resolve_parameters(method_, own) : own;
     } catch (const Error& e) {
       throw doc_.error(at_, e.what());
     }

@@ -1,5 +1,5 @@
 // Every RSM texel a light: the clustering-free answer, with exact BRDFs or with SG lobes.
-#include "method/method.h"
+#include "method/plugin.h"
 
 namespace vsglbench {
 namespace {
@@ -27,23 +27,18 @@ class AllTexels : public Method {
 };
 
 }  // namespace
-
-const MethodInfo& method_all_texels() {
-  static const MethodInfo info{
-      .name = "all-texels",
-      .summary = "every RSM texel a light: the answer without clustering",
-      .source = "-",
-      .takes_light_count = false,
-      .parameters = {{"shading",
-                      "exact",
-                      "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]",
-                      0,
-                      0,
-                      {"exact", "vsgl16"}}},
-      .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
-        return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");
-      }};
-  return info;
-}
-
 }  // namespace vsglbench
+
+VSGLBENCH_METHOD(MethodInfo{
+    .summary = "every RSM texel a light: the answer without clustering",
+    .source = "-",
+    .takes_light_count = false,
+    .parameters = {{"shading",
+                    "exact",
+                    "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]",
+                    0,
+                    0,
+                    {"exact", "vsgl16"}}},
+    .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
+      return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");
+    }})

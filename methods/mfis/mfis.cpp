@@ -1,18 +1,11 @@
 // Modified filtered importance sampling: mip level from the PDF's integral over the kernel [MFIS16 Eq. 3, 5].
 #include "method/filtered_sampling.h"
+#include "method/plugin.h"
 
-namespace vsglbench {
-
-const MethodInfo& method_mfis() {
-  static const MethodInfo info{
-      .name = "mfis",
-      .summary = "modified filtered importance sampling, kernels of equal probability",
-      .source = "[MFIS16] Eq. 3, 5, Alg. 1",
-      .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}}},
-      .create = [](MethodContext& context, const Json& parameters) {
-        return make_filtered_sampling(context, "mfis.comp", parameters.at("K").get<float>());
-      }};
-  return info;
-}
-
-}  // namespace vsglbench
+VSGLBENCH_METHOD(MethodInfo{
+    .summary = "modified filtered importance sampling, kernels of equal probability",
+    .source = "[MFIS16] Eq. 3, 5, Alg. 1",
+    .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}}},
+    .create = [](MethodContext& context, const Json& parameters) {
+      return make_filtered_sampling(context, "mfis.comp", parameters.at("K").get<float>());
+    }})

@@ -1,5 +1,6 @@
 // Virtual point lights: N texels drawn by warping the PDF (Keller 1997; [VSGL14] Eq. 1).
 #include "method/filtered_sampling.h"
+#include "method/plugin.h"
 
 namespace vsglbench {
 namespace {
@@ -28,16 +29,11 @@ class Vpls : public Method {
 };
 
 }  // namespace
-
-const MethodInfo& method_vpl() {
-  static const MethodInfo info{.name = "vpl",
-                               .summary = "virtual point lights, exact BRDFs, no filtering, no clamping",
-                               .source = "Keller 1997; [VSGL14] Eq. 1",
-                               .parameters = {},
-                               .create = [](MethodContext& context, const Json&) -> std::unique_ptr<Method> {
-                                 return std::make_unique<Vpls>(context);
-                               }};
-  return info;
-}
-
 }  // namespace vsglbench
+
+VSGLBENCH_METHOD(MethodInfo{.summary = "virtual point lights, exact BRDFs, no filtering, no clamping",
+                            .source = "Keller 1997; [VSGL14] Eq. 1",
+                            .parameters = {},
+                            .create = [](MethodContext& context, const Json&) -> std::unique_ptr<Method> {
+                              return std::make_unique<Vpls>(context);
+                            }})

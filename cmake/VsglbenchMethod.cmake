@@ -1,0 +1,38 @@
+# vsglbench_method(NAME [SOURCES ...] [NOT_INSTALLED])
+# The method NAME as a plugin: a shared library made of <folder>.cpp (NAME with '_' for '-') and SOURCES, in the
+# plugin folder; beside it a folder NAME, a link to this one, from which its kernels are compiled at run time. Its
+# test, `conformance.NAME`, is `vsglbench check-method`. Works in the tree and after find_package(vsglbench).
+include(GNUInstallDirs)
+
+function(vsglbench_method name)
+  cmake_parse_arguments(METHOD "NOT_INSTALLED" "" "SOURCES" ${ARGN})
+  string(REPLACE "-" "_" folder ${name})
+  set(target vsglbench_method_${folder})
+  if(TARGET vsglbench_method)
+    set(plugins ${CMAKE_BINARY_DIR}/lib/vsglbench/plugins)  # where the built programme looks
+  else()
+    set(plugins ${CMAKE_BINARY_DIR}/plugins)
+  endif()
+  add_library(${target} MODULE ${folder}.cpp ${METHOD_SOURCES})
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX ".so" OUTPUT_NAME ${name}
+                        LIBRARY_OUTPUT_DIRECTORY ${plugins} INSTALL_RPATH "$ORIGIN/../..")
+  if(TARGET vsglbench_method)
+    vsglbench_options(${target})
+    target_link_libraries(${target} PRIVATE vsglbench_method)
+    set(programme $<TARGET_FILE:vsglbench>)
+    set_property(GLOBAL APPEND PROPERTY VSGLBENCH_METHODS ${target})
+  else()
+    target_link_libraries(${target} PRIVATE vsglbench::vsglbench_method)
+    set(programme $<TARGET_FILE:vsglbench::vsglbench>)
+  endif()
+  file(MAKE_DIRECTORY ${plugins})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${plugins}/${name} SYMBOLIC)
+  add_test(NAME conformance.${name} COMMAND ${programme} check-method $<TARGET_FILE:${target}>)
+  set_tests_properties(conformance.${name} PROPERTIES LABELS gpu TIMEOUT 900)
+  if(NOT METHOD_NOT_INSTALLED)
+    install(TARGETS ${target} LIBRARY DESTINATION lib/vsglbench/plugins)
+    install(DIRECTORY ./ DESTINATION lib/vsglbench/plugins/${name}
+            FILES_MATCHING PATTERN "*.comp" PATTERN "*.glsl" PATTERN "build*" EXCLUDE)
+  endif()
+endfunction()

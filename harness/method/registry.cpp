@@ -1,0 +1,257 @@
+#include "method/registry.h"
+
+#include <dlfcn.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include "base/child.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/nearest.h"
+#include "method/plugin.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+constexpr double kLoadLimit_s = 20;  // a plugin that takes longer to load hangs
+
+std::vector<fs::path>& own_folders() {
+  static std::vector<fs::path> folders;
+  return folders;
+}
+
+std::vector<fs::path> split(const std::string& folders) {
+  std::vector<fs::path> out;
+  for (size_t at = 0; at <= folders.size();) {
+    const size_t end = std::min(folders.find(':', at), folders.size());
+    if (end > at) out.emplace_back(folders.substr(at, end - at));
+    at = end + 1;
+  }
+  return out;
+}
+
+std::vector<fs::path> libraries_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(folder, ec)) {
+    if (entry.path().extension() == ".so" && entry.is_regular_file(ec)) out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// What this file's name and place say.
+MethodInfo named_after(const fs::path& library) {
+  MethodInfo info;
+  info.name = library.stem().string();
+  info.library = fs::absolute(library).lexically_normal();
+  info.folder = info.library.parent_path() / info.name;
+  return info;
+}
+
+MethodInfo refuse(const fs::path& library, const std::string& why) {
+  MethodInfo info = named_after(library);
+  info.refused = fmt::format("plugin {}: {}", info.library.string(), why);
+  return info;
+}
+
+// A default outside its own range, or one name twice, is the plugin's mistake: better told now than in a run.
+std::string mistake_in(const MethodInfo& info) {
+  if (!info.create) return "has no `create`";
+  for (const auto& p : info.parameters) {
+    const auto same = [&](const ParameterInfo& q) { return q.name == p.name; };
+    if (std::ranges::count_if(info.parameters, same) > 1) {
+      return fmt::format("has two parameters '{}'", p.name);
+    }
+  }
+  try {
+    resolve_parameters(info, Json::object());
+  } catch (const Error& e) {
+    return fmt::format("has a default that it refuses itself: {}", e.what());
+  }
+  return "";
+}
+
+// Opens it in this process, for good.
+MethodInfo open_plugin(const fs::path& library) {
+  const MethodInfo place = named_after(library);
+  void* handle = ::dlopen(place.library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) return refuse(library, fmt::format("can't be loaded: {}", ::dlerror()));
+  using Entry = const PluginHeader* (*)();
+  const auto entry = reinterpret_cast<Entry>(::dlsym(handle, "vsglbench_plugin"));
+  if (!entry) return refuse(library, "is no vsglbench method (it lacks VSGLBENCH_METHOD)");
+  const PluginHeader* header = entry();
+  if (header->abi != plugin_abi) {
+    return refuse(library, fmt::format("was built for plugin ABI {}, but this programme has ABI {}; build it "
+                                       "again against this vsglbench",
+                                       header->abi, plugin_abi));
+  }
+  MethodInfo info = header->info();
+  info.name = place.name;
+  info.library = place.library;
+  info.folder = place.folder;
+  if (const std::string mistake = mistake_in(info); !mistake.empty()) return refuse(library, mistake);
+  return info;
+}
+
+MethodInfo from_json(const Json& j, const fs::path& library) {
+  MethodInfo info = named_after(library);
+  info.summary = j.at("summary");
+  info.source = j.at("source");
+  info.takes_light_count = j.at("takes_light_count");
+  info.device_features = j.at("device_features");
+  info.flux_bound = j.at("flux_bound");
+  info.refused = j.value("refused", "");
+  for (const auto& p : j.at("parameters")) {
+    info.parameters.push_back({p.at("name"), p.at("default"), p.at("description"), p.value("minimum", 0.0),
+                               p.value("maximum", 0.0), p.value("choices", std::vector<std::string>())});
+  }
+  return info;
+}
+
+// Asks each in a child process; one that takes the child down is refused, and a new child asks the rest.
+std::vector<MethodInfo> inspect(const std::vector<fs::path>& libraries) {
+  std::vector<MethodInfo> found;
+  while (found.size() < libraries.size()) {
+    const size_t first = found.size();
+    Child child([&](const ToParent& parent) {
+      for (size_t i = first; i < libraries.size(); ++i) parent.send(to_json(open_plugin(libraries[i])));
+    });
+    while (const auto answer = child.receive(kLoadLimit_s)) {
+      found.push_back(from_json(*answer, libraries[found.size()]));
+    }
+    if (found.size() == libraries.size()) break;
+    const std::string how = child.how_it_ended().empty() ? "ended the process" : child.how_it_ended();
+    found.push_back(refuse(libraries[found.size()], how + " while it was loaded"));
+  }
+  return found;
+}
+
+std::vector<MethodInfo> search() {
+  std::vector<fs::path> libraries;
+  for (const auto& folder : plugin_folders()) {
+    for (const auto& library : libraries_in(folder)) {
+      const auto same = [&](const fs::path& other) { return other.stem() == library.stem(); };
+      if (std::ranges::none_of(libraries, same)) libraries.push_back(library);
+    }
+  }
+  return inspect(libraries);
+}
+
+MethodInfo checked(MethodInfo info, const DeviceInfo& device) {
+  if (!info.refused.empty()) throw Error(ErrorKind::plugin, info.refused);
+  std::vector<std::string> missing;
+  for (const auto& feature : info.device_features) {
+    if (std::ranges::count(device.features, feature) == 0) missing.push_back(feature);
+  }
+  if (!missing.empty()) {
+    throw fail(ErrorKind::plugin, "plugin {}: needs {}, which {} lacks", info.library.string(),
+               fmt::join(missing, ", "), device.name);
+  }
+  return info;
+}
+
+}  // namespace
+
+void set_plugin_path(const std::string& folders) {
+  own_folders() = split(folders);
+  for (const auto& folder : own_folders()) {
+    std::error_code ec;
+    if (!fs::is_directory(folder, ec)) {
+      throw fail(ErrorKind::usage, "--plugin-path {}: no such folder", folder.string());
+    }
+  }
+}
+
+std::vector<fs::path> plugin_folders() {
+  std::vector<fs::path> folders = own_folders();
+  if (const char* more = std::getenv("VSGLBENCH_PLUGINS")) {
+    for (auto& folder : split(more)) folders.push_back(std::move(folder));
+  }
+  folders.push_back(library_directory() / "vsglbench" / "plugins");
+  return folders;
+}
+
+const std::vector<const MethodInfo*>& all_methods() {
+  static const std::vector<MethodInfo> found = search();
+  static const std::vector<const MethodInfo*> pointers = [] {
+    std::vector<const MethodInfo*> out;
+    for (const MethodInfo& info : found) out.push_back(&info);
+    return out;
+  }();
+  return pointers;
+}
+
+const MethodInfo& find_method(const std::string& name) {
+  std::vector<std::string> known;
+  for (const MethodInfo* method : all_methods()) {
+    if (method->name == name) return *method;
+    known.push_back(method->name);
+  }
+  throw fail(ErrorKind::config, "no method '{}'{}", name, suggestion(name, known));
+}
+
+MethodInfo inspect_plugin(const fs::path& library) {
+  std::error_code ec;
+  if (!fs::is_regular_file(library, ec)) return refuse(library, "no such file");
+  return inspect({library}).front();
+}
+
+const MethodInfo& load_method(const std::string& name, const DeviceInfo& device) {
+  static std::map<std::string, MethodInfo> loaded;
+  const auto known = loaded.find(name);
+  if (known != loaded.end()) return known->second;
+  const MethodInfo& found = find_method(name);
+  return loaded.emplace(name, checked(found.refused.empty() ? open_plugin(found.library) : found, device))
+      .first->second;
+}
+
+MethodInfo load_plugin(const fs::path& library, const DeviceInfo& device) {
+  return checked(open_plugin(library), device);
+}
+
+std::string plugin_hash(const MethodInfo& method) {
+  std::map<std::string, fs::path> files{{"", method.library}};
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(method.folder, ec)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".comp" || extension == ".glsl") files[entry.path().filename()] = entry.path();
+  }
+  Hasher hasher;
+  for (const auto& [name, path] : files) {
+    hasher.text(name).text(read_text(path));
+  }
+  return hasher.hex();
+}
+
+Json to_json(const MethodInfo& method) {
+  Json parameters = Json::array();
+  for (const auto& p : method.parameters) {
+    Json entry = {{"name", p.name}, {"default", p.default_value}, {"description", p.description}};
+    if (p.default_value.is_string()) {
+      entry["choices"] = p.choices;
+    } else {
+      entry["minimum"] = p.minimum;
+      entry["maximum"] = p.maximum;
+    }
+    parameters.push_back(std::move(entry));
+  }
+  Json j = {{"name", method.name},
+            {"summary", method.summary},
+            {"source", method.source},
+            {"takes_light_count", method.takes_light_count},
+            {"parameters", std::move(parameters)},
+            {"device_features", method.device_features},
+            {"flux_bound", method.flux_bound},
+            {"library", method.library.string()}};
+  if (!method.refused.empty()) j["refused"] = method.refused;
+  return j;
+}
+
+}  // namespace vsglbench
