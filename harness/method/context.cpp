@@ -31,11 +31,15 @@ size_t ScratchPool::bytes() const {
 }
 
 const Kernel& MethodContext::kernel(const std::string& file, const ShaderDefines& defines) {
-  return **used_kernels_.insert(&kernels_.get(folder_ / file, defines)).first;
+  return use(folder_ / file, defines);
 }
 
 const Kernel& MethodContext::shared_kernel(const std::string& file, const ShaderDefines& defines) {
-  const auto path = data_root() / "harness" / "method" / "shaders" / file;
+  return use(data_root() / "harness" / "method" / "shaders" / file, defines);
+}
+
+const Kernel& MethodContext::use(const std::filesystem::path& path, const ShaderDefines& defines) {
+  used_files_.insert(path);
   return **used_kernels_.insert(&kernels_.get(path, defines)).first;
 }
 

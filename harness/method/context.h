@@ -53,13 +53,17 @@ class MethodContext {
 
   // What the method has asked for so far.
   size_t kernel_count() const { return used_kernels_.size(); }
+  const std::set<std::filesystem::path>& kernel_files() const { return used_files_; }
   size_t scratch_bytes() const;
+  const std::map<std::string, size_t>& scratch_buffers() const { return used_bytes_; }  // bytes by name
 
  private:
   KernelLibrary& kernels_;
   ScratchPool& scratch_;
   std::filesystem::path folder_;
+  const Kernel& use(const std::filesystem::path& path, const ShaderDefines& defines);
   std::set<const Kernel*> used_kernels_;
+  std::set<std::filesystem::path> used_files_;
   std::map<std::string, size_t> used_bytes_;
 };
 

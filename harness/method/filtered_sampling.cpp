@@ -19,8 +19,6 @@ uint64_t pyramid_texels(uint32_t width, uint32_t height) {
   return total;
 }
 
-uint32_t lattice_step(uint32_t count) { return static_cast<uint32_t>((uint64_t{1} << 32) / count); }
-
 MomentPyramid::MomentPyramid(MethodContext& context)
     : context_(context),
       resolve_(context.shared_kernel("resolve.comp")),

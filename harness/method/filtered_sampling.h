@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "method/light_kernel.h"
 #include "method/method.h"
 
 namespace vsglbench {
@@ -29,7 +30,5 @@ std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std
 uint64_t pyramid_texels(uint32_t width, uint32_t height);
 // Index of its last level, which has one texel.
 uint32_t pyramid_top(uint32_t width, uint32_t height);
-// floor(2^32/N), the lattice's step in 32-bit fixed point (shaders/warp.glsl); 0 for N = 1.
-uint32_t lattice_step(uint32_t count);
 
 }  // namespace vsglbench

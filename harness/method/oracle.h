@@ -1,5 +1,5 @@
-// Tests only: generation in double precision on the host, written from the paper's own sums (App. B) and not
-// from the kernels, which keep central moments.
+// For tests and the conformance kit: generation in double precision on the host, written from the paper's own
+// sums (App. B) and not from the kernels, which keep central moments.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -42,7 +42,7 @@ std::vector<fs::path> libraries_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
     if (entry.path().extension() == ".so" && entry.is_regular_file(ec)) out.push_back(entry.path());
   }
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out, {}, [](const fs::path& p) { return p.stem(); });
   return out;
 }
 

@@ -39,6 +39,7 @@ VSGLBENCH_METHOD(MethodInfo{
                     0,
                     0,
                     {"exact", "vsgl16"}}},
+    .flux_bound = 1e-5,
     .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
       return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");
     }})

@@ -6,6 +6,7 @@ VSGLBENCH_METHOD(MethodInfo{
     .summary = "filtered importance sampling, kernel size from the PDF at the kernel's centre",
     .source = "[MFIS16] Eq. 1, 4; Tokuyoshi 2015",
     .parameters = {{"K", 1.0, "kernel size: K/N of the image at mean density", 1e-6, 1e6, {}}},
+    .flux_bound = 0.01,
     .create = [](MethodContext& context, const Json& parameters) {
       return make_filtered_sampling(context, "fis.comp", parameters.at("K").get<float>());
     }})
