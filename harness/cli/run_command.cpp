@@ -54,7 +54,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
   command->footer(
       "The report is saved after every scene, whose cases are measured together. An interrupted run goes on "
       "after the\n"
-      "last scene that was finished when the same command is given again. A complete report in the folder is "
+      "last scene that was finished when the same command is given again. Cases run in processes of their "
+      "own: "
+      "one that\n"
+      "crashes, hangs or loses the device fails, and the rest goes on. A complete report in the folder is "
       "kept as\n"
       "report.previous.json; images are replaced.\n"
       "Example: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'");
@@ -63,6 +66,12 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
   command->add_option("--only", options->only, "run only the cases whose id matches this glob");
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command
+      ->add_option(
+          "--time-limit", options->time_limit_s,
+          "seconds that one action of a case may take before it counts as hanging (default: the config's, "
+          "600)")
+      ->check(CLI::Range(1e-3, 1e6));
   command->add_flag("--force", options->force, "measure again what an interrupted run had finished");
   command->add_flag("--validate", options->validation,
                     "with Vulkan's validation layers (slow); a message fails the run");

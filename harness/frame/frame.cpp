@@ -22,6 +22,21 @@ uint64_t mix(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+// Lights that one dispatch goes through. lavapipe ends a shader's loops after 65535 rounds in all, without a
+// word: lights beyond would be left out of the sum.
+constexpr uint32_t kMostLights = 16384;
+
+struct LightRange {
+  uint32_t first, count;
+};
+
+std::vector<LightRange> light_ranges(uint32_t count, uint32_t most) {
+  std::vector<LightRange> ranges;
+  for (uint32_t first = 0; first < count; first += most)
+    ranges.push_back({first, std::min(most, count - first)});
+  return ranges;
+}
+
 void add(FrameTimes& times, const SubmissionTimes& submission) {
   for (const PassTime& pass : submission.passes) {
     const auto same = std::find_if(times.passes.begin(), times.passes.end(),
@@ -42,12 +57,6 @@ glm::uvec2 lattice_shift(uint32_t seed) {
   if (seed == 0) return glm::uvec2(0);
   const uint64_t word = mix(seed);
   return {static_cast<uint32_t>(word), static_cast<uint32_t>(word >> 32)};
-}
-
-std::vector<glm::vec4> download_map(const DeviceImage& image) {
-  std::vector<glm::vec4> texels(size_t(image.width()) * image.height());
-  image.download(texels.data(), texels.size() * sizeof(glm::vec4));
-  return texels;
 }
 
 Stage::Stage(Device& d, KernelLibrary& k, const Scene& s)
@@ -105,13 +114,13 @@ Buffer& Frame::light_buffer(Half half, uint32_t count) {
   return stage_.scratch.get(fmt::format("lights.{}", half_name(half)), count * light_stride(method_->kind()));
 }
 
-Field Frame::field(Half half) {
+Field Frame::field(Half half, const Buffer* pdf) {
   const bool camera = half == Half::gbuffer;
   Field f;
   f.half = half;
   f.emitter = camera ? camera_ : light_;
   f.maps = (camera ? gbuffer_ : rsm_)->pointers();
-  f.pdf = method_->uses_importance() ? &pdf_buffer(half) : nullptr;
+  f.pdf = pdf;
   return f;
 }
 
@@ -122,7 +131,7 @@ FrameTimes Frame::render(uint32_t seed) {
   recorder_.begin();
   draw_halves(recorder_);
   if (method_->uses_importance()) make_importance(recorder_, shift);
-  generate(recorder_, Half::rsm, light_buffer(Half::rsm, light_count_), light_count_, shift);
+  generate_lights(recorder_, method_->uses_importance() ? &pdf_buffer(Half::rsm) : nullptr, shift);
   if (parameters_.visibility == Visibility::exact) {
     // The host traces between two submissions; its time is not the frame's.
     add(times, recorder_.submit_and_wait());
@@ -137,6 +146,35 @@ FrameTimes Frame::render(uint32_t seed) {
     recorder_.begin();
   }
   shade(recorder_);
+  add(times, recorder_.submit_and_wait());
+  times.generate_dispatches = generate_dispatches_;
+  return times;
+}
+
+KeptPdfs Frame::prepare(uint32_t seed) {
+  if (!method_->uses_importance()) throw fail(ErrorKind::case_failed, "this method makes no PDFs");
+  recorder_.begin();
+  draw_halves(recorder_);
+  make_importance(recorder_, lattice_shift(seed));
+  recorder_.submit_and_wait();
+  const auto keep = [&](Half half, const char* name) {
+    const Buffer& made = pdf_buffer(half);
+    const DeferredTargets& t = half == Half::gbuffer ? *gbuffer_ : *rsm_;
+    const size_t texels = pyramid_texels(t.width, t.height);
+    Buffer kept(stage_.device, name, texels * sizeof(float));
+    kept.upload(std::span<const float>(made.download<float>(texels)));
+    return kept;
+  };
+  return {keep(Half::gbuffer, "kept pdf.gbuffer"), keep(Half::rsm, "kept pdf.rsm")};
+}
+
+FrameTimes Frame::generate_only(uint32_t seed, const KeptPdfs& pdfs) {
+  const glm::uvec2 shift = lattice_shift(seed);
+  FrameTimes times;
+  generate_dispatches_ = 0;
+  recorder_.begin();
+  if (method_->uses_importance()) generate_importance_lights(recorder_, &pdfs.gbuffer, shift);
+  generate_lights(recorder_, method_->uses_importance() ? &pdfs.rsm : nullptr, shift);
   add(times, recorder_.submit_and_wait());
   times.generate_dispatches = generate_dispatches_;
   return times;
@@ -168,27 +206,40 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
     build_pdf_mips(r, pdf, camera_.width, camera_.height);
   });
   // 2. Lights on the G-buffer, by the method under test.
-  Buffer& lights = light_buffer(Half::gbuffer, importance_count_);
-  generate(r, Half::gbuffer, lights, importance_count_, shift);
+  generate_importance_lights(r, &pdf_buffer(Half::gbuffer), shift);
   // 3. What they are worth at every RSM texel.
+  const Buffer& lights = light_buffer(Half::gbuffer, importance_count_);
   const auto m = rsm_->pointers();
   r.pass("importance.rsm", [&] {
     const Buffer& pdf = pdf_buffer(Half::rsm);
-    const struct {
-      gpu::Emitter emitter;
-      uint32_t count;
-    } push{light_, importance_count_};
-    r.dispatch(stage_.kernels.get(kernel_path("importance.comp"), light_define(method_->kind())),
-               {*m[0], *m[1], *m[2], *m[3], *m[4], lights, pdf}, push, groups_for(light_.width, 8),
-               groups_for(light_.height, 8));
+    for (const LightRange& range : light_ranges(importance_count_, kMostLights)) {
+      const struct {
+        gpu::Emitter emitter;
+        LightRange range;
+      } push{light_, range};
+      if (range.first > 0) r.barrier();
+      r.dispatch(stage_.kernels.get(kernel_path("importance.comp"), light_define(method_->kind())),
+                 {*m[0], *m[1], *m[2], *m[3], *m[4], lights, pdf}, push, groups_for(light_.width, 8),
+                 groups_for(light_.height, 8));
+    }
     build_pdf_mips(r, pdf, light_.width, light_.height);
   });
 }
 
-void Frame::generate(Recorder& r, Half half, const Buffer& lights, uint32_t count, glm::uvec2 shift) {
+void Frame::generate_importance_lights(Recorder& r, const Buffer* pdf, glm::uvec2 shift) {
+  const Buffer& lights = light_buffer(Half::gbuffer, importance_count_);
+  generate(r, field(Half::gbuffer, pdf), {&lights, importance_count_, shift});
+}
+
+void Frame::generate_lights(Recorder& r, const Buffer* pdf, glm::uvec2 shift) {
+  const Buffer& lights = light_buffer(Half::rsm, light_count_);
+  generate(r, field(Half::rsm, pdf), {&lights, light_count_, shift});
+}
+
+void Frame::generate(Recorder& r, const Field& f, const LightTarget& target) {
   const unsigned before = r.dispatches();
-  Steps steps(r, half);
-  method_->generate(steps, field(half), {&lights, count, shift});
+  Steps steps(r, f.half);
+  method_->generate(steps, f, target);
   generate_dispatches_ += r.dispatches() - before;
 }
 
@@ -207,101 +258,45 @@ void Frame::shade(Recorder& r) {
     uint32_t first, count, words, accumulate, map_size;
   } push{camera_, 0, light_count_, words, 0, parameters_.ism.size};
 
-  if (parameters_.visibility == Visibility::none) {
-    r.pass("shade", [&] {
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect}, push, gx, gy);
-    });
-    return;
-  }
+  uint32_t most = kMostLights;
+  std::vector<const Buffer*> visibility;  // none; or that of all lights; or one of each range
   if (parameters_.visibility == Visibility::ism) {
     const auto maps = stage_.shadow_maps(parameters_.ism).build(r, lights, method_->kind(), light_count_);
-    r.pass("shade", [&] {
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *maps.depth, *maps.frames},
-                 push, gx, gy);
-    });
-    return;
-  }
-  // Bits in as many buffers as the device's storage-buffer range asks for.
-  const auto most = static_cast<uint32_t>(
-      std::clamp<uint64_t>(stage_.device.info().max_storage_range / (words * sizeof(uint32_t)), 1, 16384));
-  std::vector<const Buffer*> chunks;
-  for (uint32_t first = 0; first < light_count_; first += most) {
-    const uint32_t count = std::min(most, light_count_ - first);
-    Buffer& chunk = stage_.scratch.get(fmt::format("visibility {}", first / most),
-                                       size_t(count) * words * sizeof(uint32_t));
-    chunk.upload(&bits_[size_t(first) * words], size_t(count) * words * sizeof(uint32_t));
-    chunks.push_back(&chunk);
+    visibility = {maps.depth, maps.frames};
+  } else if (parameters_.visibility == Visibility::exact) {
+    most = std::min(most, upload_bits(words, &visibility));
   }
   r.pass("shade", [&] {
-    for (size_t i = 0; i < chunks.size(); ++i) {
-      push.first = static_cast<uint32_t>(i) * most;
-      push.count = std::min(most, light_count_ - push.first);
-      push.accumulate = i > 0;
-      r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *chunks[i]}, push, gx, gy);
-      r.barrier();
+    for (const LightRange& range : light_ranges(light_count_, most)) {
+      push.first = range.first;
+      push.count = range.count;
+      push.accumulate = range.first > 0;
+      if (push.accumulate) r.barrier();
+      if (parameters_.visibility == Visibility::none) {
+        r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect}, push, gx, gy);
+      } else if (parameters_.visibility == Visibility::ism) {
+        r.dispatch(kernel,
+                   {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *visibility[0], *visibility[1]},
+                   push, gx, gy);
+      } else {
+        const Buffer& bits = *visibility[range.first / most];
+        r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, bits}, push, gx, gy);
+      }
     }
   });
 }
 
-std::vector<LightPoint> Frame::light_points() const {
-  std::vector<LightPoint> points;
-  for (const auto& light : vsgls()) points.push_back({light.mean, std::sqrt(light.variance)});
-  for (const auto& light : vpls()) points.push_back({light.position, 0});
-  return points;
-}
-
-Image Frame::indirect() const {
-  Image image(camera_.width, camera_.height);
-  const auto texels = stage_.scratch.get("indirect", image.pixels.size() * sizeof(glm::vec4))
-                          .download<glm::vec4>(image.pixels.size());
-  std::transform(texels.begin(), texels.end(), image.pixels.begin(),
-                 [](const glm::vec4& t) { return glm::vec3(t); });
-  return image;
-}
-
-std::vector<uint8_t> Frame::surface_mask() const {
-  const auto position = download_map(gbuffer_->maps[0]);
-  std::vector<uint8_t> mask(position.size());
-  std::transform(position.begin(), position.end(), mask.begin(), [](const glm::vec4& p) { return p.w > 0; });
-  return mask;
-}
-
-std::vector<gpu::Vsgl> Frame::vsgls() const {
-  if (method_->kind() != LightKind::vsgl) return {};
-  return const_cast<Frame*>(this)->light_buffer(Half::rsm, light_count_).download<gpu::Vsgl>(light_count_);
-}
-
-std::vector<gpu::Vpl> Frame::vpls() const {
-  if (method_->kind() != LightKind::vpl) return {};
-  return const_cast<Frame*>(this)->light_buffer(Half::rsm, light_count_).download<gpu::Vpl>(light_count_);
-}
-
-std::vector<float> Frame::importance() const {
-  if (!method_->uses_importance()) return {};
-  return const_cast<Frame*>(this)->pdf_buffer(Half::rsm).download<float>(size_t(light_.width) *
-                                                                         light_.height);
-}
-
-std::string Frame::first_bad_pass() const {
-  const auto bad_floats = [](const float* begin, size_t count) {
-    return std::any_of(begin, begin + count, [](float v) { return !std::isfinite(v); });
-  };
-  const auto bad_maps = [&](const DeferredTargets& targets) {
-    return std::any_of(targets.maps.begin(), targets.maps.end(), [&](const DeviceImage& map) {
-      const auto texels = download_map(map);
-      return bad_floats(&texels.front().x, 4 * texels.size());
-    });
-  };
-  const auto bad_lights = [&](const auto& lights) {
-    return bad_floats(reinterpret_cast<const float*>(lights.data()),
-                      lights.size() * sizeof(lights[0]) / sizeof(float));
-  };
-  if (bad_maps(*gbuffer_)) return "gbuffer";
-  if (bad_maps(*rsm_)) return "rsm";
-  if (const auto p = importance(); !p.empty() && bad_floats(p.data(), p.size())) return "importance.rsm";
-  if (bad_lights(vsgls()) || bad_lights(vpls())) return "generate.rsm";
-  const Image image = indirect();
-  return bad_floats(&image.pixels.front().x, 3 * image.pixels.size()) ? "shade" : "";
+// Bits in as many buffers as the device's storage-buffer range asks for; returns how many lights each holds.
+uint32_t Frame::upload_bits(uint32_t words, std::vector<const Buffer*>* buffers) {
+  const auto most = static_cast<uint32_t>(std::clamp<uint64_t>(
+      stage_.device.info().max_storage_range / (words * sizeof(uint32_t)), 1, kMostLights));
+  for (const LightRange& range : light_ranges(light_count_, most)) {
+    const size_t bytes = size_t(range.count) * words * sizeof(uint32_t);
+    Buffer& bits = stage_.scratch.get(fmt::format("visibility {}", range.first / most), bytes);
+    bits.upload(&bits_[size_t(range.first) * words], bytes);
+    buffers->push_back(&bits);
+  }
+  return most;
 }
 
 Image Frame::render_direct() {

@@ -29,6 +29,19 @@ struct FrameTimes {
   unsigned generate_dispatches = 0;
 };
 
+// PDFs on both halves as mip pyramids (shaders/pyramid.glsl), apart from the scratch memory that every frame
+// overwrites.
+struct KeptPdfs {
+  Buffer gbuffer, rsm;
+};
+
+// Lights of both halves with a NaN, or else an Inf, in any field.
+struct LightHealth {
+  uint64_t nan = 0, inf = 0;
+  std::string first_bad_pass;  // "generate.gbuffer" or "generate.rsm"; empty: all are finite
+  uint64_t first_bad = 0;      // index among that half's lights
+};
+
 // What one scene's cases share: geometry, targets, kernels and scratch memory.
 class Stage {
  public:
@@ -57,7 +70,14 @@ class Frame {
   // Renders with the lattice shift of `seed` (0: none). Waits for the device.
   FrameTimes render(uint32_t seed);
 
-  // Results of the last render().
+  // For timing generation alone. prepare() draws the halves, which then stand for every frame of these sizes,
+  // and makes the PDFs with this frame's method; throws Error(case_failed) for one that uses none.
+  // generate_only() runs nothing but the generate passes, on those halves and PDFs.
+  KeptPdfs prepare(uint32_t seed);
+  FrameTimes generate_only(uint32_t seed, const KeptPdfs& pdfs);
+  LightHealth light_health() const;  // of the last generate_only() or render()
+
+  // Results of the last render(); the lights also those of the last generate_only().
   Image indirect() const;
   std::vector<uint8_t> surface_mask() const;  // 1 where the camera sees a surface
   LightKind light_kind() const { return method_->kind(); }
@@ -84,12 +104,16 @@ class Frame {
   void draw_halves(Recorder& recorder);
   void make_importance(Recorder& recorder, glm::uvec2 shift);
   void build_pdf_mips(Recorder& recorder, const Buffer& pdf, uint32_t width, uint32_t height);
-  void generate(Recorder& recorder, Half half, const Buffer& lights, uint32_t count, glm::uvec2 shift);
+  // Both halves' lights, by the method under test, on `pdf`, which may be null where it uses none.
+  void generate_importance_lights(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift);
+  void generate_lights(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift);
+  void generate(Recorder& recorder, const Field& field, const LightTarget& target);
   void shade(Recorder& recorder);
+  uint32_t upload_bits(uint32_t words, std::vector<const Buffer*>* buffers);
   std::vector<LightPoint> light_points() const;
   Buffer& pdf_buffer(Half half);
   Buffer& light_buffer(Half half, uint32_t count);
-  Field field(Half half);
+  Field field(Half half, const Buffer* pdf);
 
   Stage& stage_;
   FrameParameters parameters_;

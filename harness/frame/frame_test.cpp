@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
+
+#include <numeric>
+
 #include "base/error.h"
 #include "base/file.h"
 #include "method/registry.h"
@@ -82,6 +87,63 @@ TEST(Frame, TheSameSeedGivesTheSameBits) {
     EXPECT_TRUE(a.pixels == b.pixels) << method;
     EXPECT_FALSE(a.pixels == other.pixels) << method << ": the seed changes nothing";
   }
+}
+
+std::vector<float> floats_of(const Frame& frame) {
+  std::vector<float> out;
+  const auto append = [&](const auto& lights) {
+    const float* begin = reinterpret_cast<const float*>(lights.data());
+    out.insert(out.end(), begin, begin + lights.size() * sizeof lights[0] / sizeof(float));
+  };
+  append(frame.vsgls());
+  append(frame.vpls());
+  return out;
+}
+
+// On PDFs of its own making a method makes the lights that it makes in a whole frame, whatever other frames
+// have rendered since; nothing but its generate passes runs.
+TEST(Frame, GenerationAloneGivesTheLightsOfTheWholeFrame) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  for (const char* method : {"vpl", "fis", "mfis"}) {
+    auto whole = session.frame(method, small());
+    whole->render(3);
+    const auto expected = floats_of(*whole);
+    ASSERT_EQ(std::count(expected.begin(), expected.end(), 0.f) == std::ssize(expected), false);
+    const KeptPdfs pdfs = session.frame(method, small())->prepare(3);
+    FrameParameters other = small();
+    other.importance_lights = 3;
+    session.frame("fis", other)->render(1);  // overwrites the scratch memory with another PDF and lights
+    auto alone = session.frame(method, small());
+    const FrameTimes times = alone->generate_only(3, pdfs);
+    EXPECT_TRUE(floats_of(*alone) == expected) << method;
+    for (const auto& pass : times.passes) EXPECT_TRUE(pass.name.starts_with("generate.")) << pass.name;
+    EXPECT_EQ(times.generate_dispatches, whole->render(3).generate_dispatches);
+    EXPECT_GT(times.span_ms, 0);
+    EXPECT_EQ(alone->light_health().first_bad_pass, "");
+  }
+  EXPECT_THROW(session.frame("all-texels", small())->prepare(0), Error);
+}
+
+TEST(Frame, TheFirstBadLightIsNamed) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  auto frame = session.frame("mfis", small());
+  frame->generate_only(0, frame->prepare(0));
+  EXPECT_EQ(frame->light_health().nan + frame->light_health().inf, 0u);
+  const auto spoil = [&](const char* buffer, size_t light, float value) {
+    session.stage.scratch.get(buffer, 64 * sizeof(gpu::Vsgl))
+        .upload(&value, sizeof value, light * sizeof(gpu::Vsgl) + offsetof(gpu::Vsgl, power));
+  };
+  spoil("lights.rsm", 9, std::nanf(""));
+  spoil("lights.rsm", 5, INFINITY);
+  EXPECT_EQ(frame->light_health().first_bad_pass, "generate.rsm");
+  EXPECT_EQ(frame->light_health().first_bad, 5u);
+  EXPECT_EQ(frame->light_health().nan, 1u);
+  EXPECT_EQ(frame->light_health().inf, 1u);
+  spoil("lights.gbuffer", 7, std::nanf(""));
+  EXPECT_EQ(frame->light_health().first_bad_pass, "generate.gbuffer");
+  EXPECT_EQ(frame->light_health().first_bad, 7u);
 }
 
 TEST(Frame, NamesItsPassesInOrder) {
@@ -172,6 +234,42 @@ TEST(Frame, RefusesSizesThatMakeNoSense) {
   p = small();
   p.width = 0;
   EXPECT_THROW(session.frame("fis", p), Error);
+}
+
+// lavapipe ends a shader's loops after 65535 rounds, without a word: 300² lights take several dispatches, and
+// are as bright as 100² are.
+TEST(Shade, EveryOneOfManyLightsCounts) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  const auto mean = [&](uint32_t rsm, Visibility visibility) {
+    auto frame =
+        session.frame("all-texels", {.width = 16, .height = 9, .rsm = rsm, .visibility = visibility});
+    frame->render(0);
+    double sum = 0;
+    for (const glm::vec3& p : frame->indirect().pixels) sum += p.x + p.y + p.z;
+    return sum;
+  };
+  for (const Visibility v : {Visibility::none, Visibility::exact}) {
+    EXPECT_NEAR(mean(300, v) / mean(100, v), 1, 0.01);
+  }
+}
+
+// The same of the lights on the G-buffer, which the RSM's texels sum.
+TEST(Importance, EveryOneOfManyLightsCounts) {
+  const Scene scene = load("cornell");
+  Session session(scene);
+  const auto mean = [&](uint32_t lights) {
+    auto frame = session.frame("mfis", {.width = 320,
+                                        .height = 240,
+                                        .rsm = 16,
+                                        .lights = 16,
+                                        .importance_lights = lights,
+                                        .visibility = Visibility::none});
+    frame->render(0);
+    const auto p = frame->importance();
+    return std::accumulate(p.begin(), p.end(), 0.0);
+  };
+  EXPECT_NEAR(mean(70000) / mean(10000), 1, 0.05);
 }
 
 // Zero messages, synchronisation checks included, over a frame of every method and visibility. The planted

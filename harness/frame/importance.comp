@@ -7,10 +7,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "field.glsl"
 #include "light_kind.glsl"
 layout(set = 0, binding = 5, scalar) readonly buffer Lights { Light lights[]; };
-layout(set = 0, binding = 6, std430) writeonly buffer Pdf { float pdf[]; };
+layout(set = 0, binding = 6, std430) buffer Pdf { float pdf[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
-  uint count;
+  uint first, count;  // lights [first, first+count) in this dispatch, added to what the ones before gave
 };
 
 void main() {
@@ -21,7 +21,8 @@ void main() {
   bool surface = load_texel(emitter, ivec2(at), t);
   vec3 sum = vec3(0.0);
   Shader shader = make_shader(t.surface);
-  for (uint k = 0u; k < count; ++k) sum += shade_light(shader, lights[k]);
+  for (uint k = first; k < first + count; ++k) sum += shade_light(shader, lights[k]);
   float p = luminance(t.flux * sum);
-  pdf[i] = surface && p > 0.0 && p < 3e38 ? p : 0.0;
+  p = surface && p > 0.0 && p < 3e38 ? p : 0.0;
+  pdf[i] = first > 0u ? pdf[i] + p : p;
 }

@@ -39,6 +39,10 @@ class JsonWriter {
   void unless_empty(const char* key, const T& value) {
     if (!value.empty()) json[key] = encode(value);
   }
+  template <class T>
+  void unless_default(const char* key, const T& value) {
+    if (value != T{}) json[key] = encode(value);
+  }
   template <class F>
   void object(const char* key, F list) {
     JsonWriter inner;
@@ -62,6 +66,7 @@ class JsonWriter {
   static Json encode(const glm::uvec2& v) { return {v.x, v.y}; }
   static Json encode(Status v) { return std::string(name(v)); }
   static Json encode(StopReason v) { return std::string(name(v)); }
+  static Json encode(Measure v) { return std::string(name(v)); }
 };
 
 // JSON that obeys the schema to structures.
@@ -79,6 +84,10 @@ class JsonReader {
   }
   template <class T>
   void unless_empty(const char* key, T& value) {
+    if (json_.contains(key)) decode(json_.at(key), value);
+  }
+  template <class T>
+  void unless_default(const char* key, T& value) {
     if (json_.contains(key)) decode(json_.at(key), value);
   }
   template <class F>
@@ -103,6 +112,7 @@ class JsonReader {
   }
   static void decode(const Json& j, glm::uvec2& v) { v = {j.at(0).get<uint32_t>(), j.at(1).get<uint32_t>()}; }
   static void decode(const Json& j, Status& v) { v = pick(j, {Status::ok, Status::failed, Status::skipped}); }
+  static void decode(const Json& j, Measure& v) { v = pick(j, {Measure::frame, Measure::generation}); }
   static void decode(const Json& j, StopReason& v) {
     v = pick(j, {StopReason::converged, StopReason::time_limit, StopReason::max_samples});
   }

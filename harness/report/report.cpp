@@ -46,9 +46,11 @@ std::string_view name(Status status) {
   return "";
 }
 
+std::string_view name(Measure measure) { return measure == Measure::frame ? "frame" : "generation"; }
+
 HealthReport health_report(const Health& health, const std::string& first_bad_pass) {
   HealthReport out{health.nan, health.inf, health.negative, std::nullopt};
-  if (health.first_bad) out.first_bad = FirstBad{first_bad_pass, *health.first_bad};
+  if (health.first_bad) out.first_bad = FirstBad{first_bad_pass, *health.first_bad, std::nullopt};
   return out;
 }
 

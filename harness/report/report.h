@@ -118,12 +118,14 @@ struct Temporal {
   FlickerSeries derivative, still;  // "derivative" and "static" in the file
 };
 
+// Where the first NaN or Inf is: in a pixel of the image or, where that shows none, in a light.
 struct FirstBad {
-  std::string pass;  // the first pass whose output held a NaN or Inf; empty where that is not known
-  glm::uvec2 pixel{0};
+  std::string pass;  // the first pass whose output held one; empty where that is not known
+  std::optional<glm::uvec2> pixel;
+  std::optional<uint64_t> light;
 };
 
-struct HealthReport {
+struct HealthReport {  // counts of pixels or lights
   uint64_t nan = 0, inf = 0, negative = 0;
   std::optional<FirstBad> first_bad;
 };
@@ -137,13 +139,22 @@ enum class Status { ok, failed, skipped };
 std::string_view name(Status status);
 
 struct CaseError {
-  std::string kind, message;  // kind: "case_failed", "scene", "plugin", "device", …
+  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal";
+  // "crashed", "timeout" or "device_lost" for what ended the case's process; "device" when none can be opened
+  std::string kind, message;
 };
 
-// One case. status ok needs everything but error, effects and temporal; failed and skipped need `error`, and
-// keep whatever was measured before.
+// What of a frame is rendered and timed: all of it, or only the two generate passes, on halves and PDFs made
+// beforehand; then there is no image and no accuracy.
+enum class Measure { frame, generation };
+std::string_view name(Measure measure);
+
+// One case. status ok needs everything but error, effects and temporal, or, where only generation is
+// measured, passes, frame, generate, stopping and health alone; failed and skipped need `error`, and keep
+// whatever was measured before.
 struct CaseResult {
   std::string id, scene, method;
+  Measure measure = Measure::frame;
   Json parameters = Json::object();
   Status status = Status::ok;
   std::optional<CaseError> error;
@@ -205,6 +216,13 @@ std::string utc_now();
 const Json& report_schema();
 Json to_json(const Report& report);
 Report report_from_json(const Json& json);  // `json` obeys the schema
+
+// A part of a report as JSON and back, for a process to tell another. T: AaPair, CaseResult, DeviceReport,
+// SceneReport or WallTime.
+template <class T>
+Json part_to_json(const T& part);
+template <class T>
+T part_from_json(const Json& json);
 
 // Throws Error(output) that names the field when a number is not finite or the report disobeys the schema;
 // the file at `path` then keeps its old content. Written atomically.

@@ -150,6 +150,7 @@ void fields(auto& a, Is<Temporal> auto& v) {
 void fields(auto& a, Is<FirstBad> auto& v) {
   a.unless_empty("pass", v.pass);
   a("pixel", v.pixel);
+  a("light", v.light);
 }
 
 void fields(auto& a, Is<HealthReport> auto& v) {
@@ -168,6 +169,7 @@ void fields(auto& a, Is<CaseResult> auto& v) {
   a("id", v.id);
   a("scene", v.scene);
   a("method", v.method);
+  a.unless_default("measure", v.measure);
   a("parameters", v.parameters);
   a("status", v.status);
   a("error", v.error);
@@ -216,15 +218,48 @@ Json to_json(const Report& report) {
   return std::move(writer.json);
 }
 
+namespace {
+
+// The file holds the number of pixels once a case, not with every seed.
+void restore_pixels(CaseResult& c) {
+  if (!c.accuracy) return;
+  for (SeedResult& s : c.seeds) s.errors.pixels = c.accuracy->pixels;
+}
+
+}  // namespace
+
 Report report_from_json(const Json& json) {
   Report report;
   JsonReader reader(json);
   fields(reader, report);
-  for (CaseResult& c : report.cases) {
-    if (!c.accuracy) continue;
-    for (SeedResult& s : c.seeds) s.errors.pixels = c.accuracy->pixels;
-  }
+  for (CaseResult& c : report.cases) restore_pixels(c);
   return report;
 }
+
+template <class T>
+Json part_to_json(const T& part) {
+  JsonWriter writer;
+  fields(writer, part);
+  return std::move(writer.json);
+}
+
+template <class T>
+T part_from_json(const Json& json) {
+  T part;
+  JsonReader reader(json);
+  fields(reader, part);
+  if constexpr (std::same_as<T, CaseResult>) restore_pixels(part);
+  return part;
+}
+
+#define VSGLBENCH_PART(T)               \
+  template Json part_to_json(const T&); \
+  template T part_from_json(const Json&);
+VSGLBENCH_PART(AaPair)
+VSGLBENCH_PART(CaseResult)
+VSGLBENCH_PART(DeviceReport)
+VSGLBENCH_PART(SceneReport)
+VSGLBENCH_PART(WallTime)
+#undef VSGLBENCH_PART
 
 }  // namespace vsglbench

@@ -109,6 +109,35 @@ TEST(ReportSchema, TheStatusDecidesWhatACaseHolds) {
   EXPECT_NE(first_violation([](Json& j) { j["cases"][0]["images"].erase("error"); }), "");
 }
 
+TEST(ReportSchema, GenerationAloneHasTimesAndNothingElse) {
+  const auto broken = [](const std::function<void(Json&)>& change) {
+    return first_violation([&](Json& j) {
+      Report r;
+      r.cases = {synthetic_generation("cornell/mfis", 10)};
+      j["cases"] = to_json(r)["cases"];
+      change(j["cases"][0]);
+    });
+  };
+  EXPECT_EQ(broken([](Json&) {}), "");
+  for (const char* key : {"measure", "passes", "frame", "generate", "stopping", "health"}) {
+    EXPECT_NE(broken([&](Json& c) { c.erase(key); }), "") << key;
+  }
+  for (const char* key : {"accuracy", "seeds", "temporal", "images"}) {
+    const Json full = to_json(synthetic_report())["cases"][0][key];
+    EXPECT_NE(broken([&](Json& c) { c[key] = full; }), "") << key;
+  }
+  EXPECT_NE(broken([](Json& c) { c["passes"][0]["name"] = "shade"; }), "");
+  EXPECT_NE(first_violation([](Json& j) { j["cases"][0]["measure"] = "generation"; }), "");
+}
+
+TEST(ReportSchema, ABadPixelOrABadLight) {
+  const auto broken = [](const Json& first_bad) {
+    return first_violation([&](Json& j) { j["cases"][1]["health"]["first_bad"] = first_bad; });
+  };
+  EXPECT_EQ(broken({{"pass", "generate.rsm"}, {"light", 7}}), "");
+  EXPECT_NE(broken({{"pass", "generate.rsm"}}), "");
+}
+
 TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
   const std::pair<const char*, Json> faults[] = {{"/schema", "vsglbench.report/2"},
                                                  {"/created", "yesterday"},

@@ -49,6 +49,21 @@ TEST_F(ReportFile, ReadsBackEveryField) {
   EXPECT_EQ(read.cases[2].status, Status::skipped);
 }
 
+TEST(Report, PartsComeBackAsTheyWere) {
+  const Report report = synthetic_report();
+  const auto same = []<class T>(const T& part) {
+    const Json json = part_to_json(part);
+    EXPECT_EQ(part_to_json(part_from_json<T>(Json::parse(json.dump()))).dump(), json.dump());
+  };
+  for (const auto& c : report.cases) same(c);
+  same(synthetic_generation("cornell/fis", 3));
+  same(*report.aa);
+  same(report.device);
+  same(report.scenes[0]);
+  same(report.wall);
+  EXPECT_EQ(part_from_json<CaseResult>(part_to_json(report.cases[0])).seeds[5].errors.pixels, 1000u);
+}
+
 TEST_F(ReportFile, NumbersThatAreNotFiniteAreNamedAndNothingIsWritten) {
   write_report(path_, synthetic_report());
   const std::string before = read_text(path_);

@@ -45,6 +45,24 @@ inline CaseResult synthetic_case(const std::string& id) {
   return c;
 }
 
+// A case of which only the generation was measured.
+inline CaseResult synthetic_generation(const std::string& id, double ms) {
+  CaseResult c = synthetic_case(id);
+  c.measure = Measure::generation;
+  c.passes = {synthetic_pass("generate.gbuffer.sample", 0.25 * ms),
+              synthetic_pass("generate.rsm.sample", 0.75 * ms)};
+  c.frame = frame_timing({ms, 1.25 * ms, 0.75 * ms, ms}, c.passes);
+  c.generate->total = *sum_of_passes(c.passes, {"generate."});
+  c.generate->gbuffer_ms = 0.25 * ms;
+  c.generate->rsm_ms = 0.75 * ms;
+  c.effects.reset();
+  c.accuracy.reset();
+  c.temporal.reset();
+  c.seeds.clear();
+  c.images.clear();
+  return c;
+}
+
 inline CaseResult synthetic_failure(const std::string& id, Status status, const std::string& message) {
   CaseResult c;
   c.id = id;
@@ -71,7 +89,7 @@ inline Report synthetic_report() {
   r.cases = {synthetic_case("cornell/mfis"),
              synthetic_failure("cornell/vpl", Status::failed, "a NaN in pass shade"),
              synthetic_failure("sponza/vpl", Status::skipped, "sponza.gltf is absent")};
-  r.cases[1].health = HealthReport{2, 1, 0, FirstBad{"shade", {7, 9}}};
+  r.cases[1].health = HealthReport{2, 1, 0, FirstBad{"shade", glm::uvec2(7, 9), std::nullopt}};
   return r;
 }
 

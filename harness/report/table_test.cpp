@@ -49,9 +49,31 @@ TEST(Table, ErrorsUnderTheFloorAreNotDifferences) {
   r.cases[0].accuracy->reference.noise_floor_smape = 12.5;
   r.cases[0].accuracy->bias.value.reset();
   const std::string table = terminal_table(r);
-  EXPECT_NE(table.find("≤ floor (12.50)"), std::string::npos);
+  EXPECT_NE(table.find("12.00 ≤ floor 12.50"), std::string::npos);
   EXPECT_EQ(table.find("12.00 ±"), std::string::npos);
   EXPECT_NE(table.find("undefined"), std::string::npos);
+}
+
+TEST(Table, GenerationAloneIsComparedWithTheScenesFirst) {
+  Report r = synthetic_report();
+  r.cases = {synthetic_failure("a/broken", Status::failed, "it crashed"), synthetic_generation("a/mfis", 10),
+             synthetic_generation("a/kmeans", 40), synthetic_generation("b/fis", 20)};
+  r.cases[3].scene = "b";
+  r.config["measure"] = "generation";
+  r.config["pdfs_made_by"] = "mfis";
+  const auto lines = split(terminal_table(r));
+  EXPECT_EQ(lines[0].find("SMAPE"), std::string::npos);
+  EXPECT_NE(lines[1].find("failed: it crashed"), std::string::npos);
+  EXPECT_NE(lines[2].find(" 10.00 "), std::string::npos);
+  EXPECT_NE(lines[2].find(" 2.50 "), std::string::npos);  // the G-buffer half
+  EXPECT_NE(lines[2].find(" 7.50 "), std::string::npos);
+  EXPECT_TRUE(lines[2].ends_with(" 1"));
+  EXPECT_NE(lines[3].find(" 4.000 ["), std::string::npos);
+  EXPECT_TRUE(lines[4].ends_with(" 1"));  // another scene
+  EXPECT_EQ(signs(lines[0]), signs(lines[3]));
+  EXPECT_NE(terminal_table(r).find("PDFs, made by mfis"), std::string::npos);
+  const auto rows = split(markdown_table(r));
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), '|'), 6) << rows[i];
 }
 
 TEST(Table, SaysWhatTheTimesAreWorth) {

@@ -9,7 +9,7 @@
 namespace vsglbench {
 
 std::string error_kind(const Error& error, const char* input) {
-  return error.exit_code() == 1 ? "case_failed" : error.exit_code() == 3 ? "device" : input;
+  return error.exit_code() == 1 ? "case_failed" : input;
 }
 
 std::string one_line(std::string text) {
@@ -18,11 +18,12 @@ std::string one_line(std::string text) {
   return text;
 }
 
-CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall)
-    : case_(description), config_(config), wall_(wall) {
+CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce)
+    : case_(description), config_(config), wall_(wall), announce_(std::move(announce)) {
   result_.id = case_.id;
   result_.scene = case_.scene;
   result_.method = case_.method;
+  result_.measure = config_.measure;
   result_.parameters = case_.parameters;
 }
 
@@ -35,23 +36,45 @@ void CaseRun::fail_with(const std::string& kind, const std::string& message) {
 
 // What a user gives a case beside numbers is a method: a kernel that does not compile, say.
 template <class Action>
-void CaseRun::attempt(const Action& action) {
+void CaseRun::attempt(const std::string& name, const Action& action) {
   if (finished()) return;
-  guarded("plugin", action, [this](const auto& kind, const auto& message) { fail_with(kind, message); });
+  action_ = name;
+  const auto announced = [&] {
+    announce(true);
+    action();
+  };
+  guarded("plugin", announced, [this](const auto& kind, const auto& message) { fail_with(kind, message); });
 }
 
-void CaseRun::open(Stage& stage, const ReferenceResult& reference, ExactVisibility exact) {
+void CaseRun::announce(bool limited) const {
+  if (announce_) announce_({case_.id, action_, limited});
+}
+
+void CaseRun::conclude() {
+  concluded_ = true;
+  first_image_.reset();
+  mask_ = {};
+  if (!frame_) return;
+  action_ = "closing";
+  announce(true);
+  frame_.reset();
+}
+
+void CaseRun::open(Stage& stage, CaseInput input) {
   const Stopwatch watch;
-  reference_ = &reference;
-  attempt([&] {
-    frame_ = std::make_unique<Frame>(stage, load_method(case_.method, stage.device.info()), case_.method_parameters, case_.frame,
-                                     std::move(exact));
+  input_ = std::move(input);
+  attempt("opening", [&] {
+    frame_ = std::make_unique<Frame>(stage, load_method(case_.method, stage.device.info()),
+                                     case_.method_parameters, case_.frame, input_.exact);
   });
   wall_->compilation_s += watch.seconds();
 }
 
 // A method that does not draw its lights gives the same image for every seed.
-uint32_t CaseRun::seeds() const { return find_method(case_.method).takes_light_count ? config_.seeds : 1; }
+uint32_t CaseRun::seeds() const {
+  if (config_.measure == Measure::generation) return 0;
+  return find_method(case_.method).takes_light_count ? config_.seeds : 1;
+}
 
 uint64_t CaseRun::frames_left() const {
   if (finished()) return 0;
@@ -64,7 +87,8 @@ uint64_t CaseRun::frames_left() const {
 FrameTimes CaseRun::render(uint32_t seed) {
   const double visibility_before = wall_->visibility_s;
   const Stopwatch watch;
-  FrameTimes times = frame_->render(seed);
+  FrameTimes times = config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs)
+                                                            : frame_->render(seed);
   const double device_s = times.span_ms * 1e-3;
   wall_->device_s += device_s;
   if (!rendered_) {
@@ -76,19 +100,24 @@ FrameTimes CaseRun::render(uint32_t seed) {
 }
 
 void CaseRun::warm_up() {
-  attempt([&] {
+  attempt("warm-up", [&] {
     render(0);
     ++warmups_;
   });
 }
 
 void CaseRun::step() {
-  attempt([&] {
+  attempt(fmt::format("frame {}", span_ms_.size() + 1), [&] {
     const Stopwatch watch;
     const bool scored = seeds_.size() < seeds();
     const uint32_t seed = scored ? static_cast<uint32_t>(seeds_.size()) : 0;
     record(render(seed));
     if (scored) score(seed);
+    if (config_.measure == Measure::generation && span_ms_.size() == 1) {
+      result_.health.emplace();
+      check_lights();
+      describe_lights();
+    }
     elapsed_s_ += watch.seconds();
     if (seeds_.size() < seeds()) return;
     reason_ = should_stop(config_.timing, span_ms_, elapsed_s_);
@@ -100,10 +129,11 @@ void CaseRun::score(uint32_t seed) {
   const Image image = frame_->indirect();
   if (mask_.empty()) make_mask();
   check_health_of(image);
+  check_lights();
   if (seed == 0) describe_lights();
-  const Errors errors = measure_errors(image, reference_->mean, mask_);
+  const Errors errors = measure_errors(image, input_.reference->mean, mask_);
   if (seed == 0) {
-    quantiles_ = error_quantiles(image, reference_->mean, mask_);
+    quantiles_ = error_quantiles(image, input_.reference->mean, mask_);
     first_image_ = image;
   }
   seeds_.push_back({seed, errors});
@@ -111,7 +141,7 @@ void CaseRun::score(uint32_t seed) {
 
 void CaseRun::make_mask() {
   mask_ = frame_->surface_mask();
-  for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && reference_->mask[i];
+  for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && input_.reference->mask[i];
 }
 
 // One NaN or Inf fails the case and names the pass that first held one; it is never averaged away.
@@ -130,6 +160,18 @@ void CaseRun::check_health_of(const Image& image) {
             fmt::format("{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one",
                         health.nan, health.inf, health.first_bad->x, health.first_bad->y, pass));
   throw fail(ErrorKind::case_failed, "not finite");  // ends the step; the failure above stays
+}
+
+// The same for the lights. A light of NaNs need not show in the image: what has no power above 0 is not
+// shaded.
+void CaseRun::check_lights() {
+  const LightHealth health = frame_->light_health();
+  if (health.first_bad_pass.empty()) return;
+  result_.health = HealthReport{health.nan, health.inf, 0,
+                                FirstBad{health.first_bad_pass, std::nullopt, health.first_bad}};
+  fail_with("not_finite", fmt::format("{} lights with a NaN and {} with an Inf, the first is light {} of {}",
+                                      health.nan, health.inf, health.first_bad, health.first_bad_pass));
+  throw fail(ErrorKind::case_failed, "not finite");
 }
 
 void CaseRun::record(const FrameTimes& times) {
@@ -177,8 +219,8 @@ CaseResult CaseRun::result() const {
     r.generate->rsm_ms = rsm ? rsm->median : 0;
   }
   if (!seeds_.empty()) {
-    r.accuracy = accuracy_over_seeds(
-        seeds_, {reference_->hash, reference_->samples, reference_->noise_floor_smape, std::nullopt});
+    r.accuracy = accuracy_over_seeds(seeds_, {input_.reference->hash, input_.reference->samples,
+                                              input_.reference->noise_floor_smape, std::nullopt});
     r.accuracy->quantiles = quantiles_;
     r.seeds = seeds_;
   }

@@ -10,23 +10,43 @@
 #include "image/metrics.h"
 #include "reference/reference.h"
 #include "report/report.h"
+#include "run/activity.h"
 #include "run/config.h"
 
 namespace vsglbench {
 
+// What a case is measured with; all of it outlives the case.
+struct CaseInput {
+  const ReferenceResult* reference = nullptr;  // that matches its visibility, for whole frames
+  const KeptPdfs* pdfs = nullptr;              // for generation alone
+  ExactVisibility exact;
+};
+
 class CaseRun {
  public:
-  // A case without a frame yet. `config` and `wall` outlive it; times are added to `wall`.
-  CaseRun(const Case& description, const Config& config, WallTime* wall);
+  // A case without a frame yet. `config` and `wall` outlive it; times are added to `wall`. `announce` is
+  // called at the start of every action that runs the method's code.
+  CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce = {});
 
-  // Compiles its kernels and takes its memory; `reference` is the one that matches its visibility and
-  // outlives the case. Like warm_up() and step() it never throws: whatever goes wrong fails the case, and
-  // only this one.
-  void open(Stage& stage, const ReferenceResult& reference, ExactVisibility exact);
+  // Compiles its kernels and takes its memory. Like warm_up() and step() it throws Error(device) only, for a
+  // device that is lost to all: whatever else goes wrong fails the case, and only this one.
+  void open(Stage& stage, CaseInput input);
   // One untimed frame.
   void warm_up();
   // The next frame of the measurement: the seeds first, then seed 0 until the stopping rule is met.
+  // Generation alone is measured with seed 0.
   void step();
+  // Destroys the method, its frame and the images; the numbers stay.
+  void conclude();
+  bool concluded() const { return concluded_; }
+  // For work of the harness amid an action, such as tracing rays: the time limit rests meanwhile.
+  template <class Work>
+  auto rest_limit(const Work& work) {
+    announce(false);
+    auto result = work();
+    announce(true);
+    return result;
+  }
 
   bool finished() const { return finished_ || failed(); }
   bool failed() const { return result_.status != Status::ok; }
@@ -38,7 +58,7 @@ class CaseRun {
   CaseResult result() const;
   const Case& description() const { return case_; }
   const std::optional<Image>& image() const { return first_image_; }  // of seed 0
-  const ReferenceResult* reference() const { return reference_; }
+  const ReferenceResult* reference() const { return input_.reference; }
   const Mask& mask() const {
     return mask_;
   }  // pixels with a surface for the rasteriser and the reference alike
@@ -47,19 +67,23 @@ class CaseRun {
 
  private:
   template <class Action>
-  void attempt(const Action& action);
+  void attempt(const std::string& name, const Action& action);
+  void announce(bool limited) const;
   uint32_t seeds() const;  // to be scored
   FrameTimes render(uint32_t seed);
   void score(uint32_t seed);
   void make_mask();
   void check_health_of(const Image& image);
+  void check_lights();
   void record(const FrameTimes& times);
   void describe_lights();
 
   Case case_;
   const Config& config_;
   WallTime* wall_;
-  const ReferenceResult* reference_ = nullptr;
+  Announce announce_;
+  std::string action_;  // announced last
+  CaseInput input_;
   std::unique_ptr<Frame> frame_;
   CaseResult result_;  // but for what result() makes of the samples below
   std::vector<std::string> pass_names_;
@@ -72,13 +96,14 @@ class CaseRun {
   std::optional<StopReason> reason_;
   uint64_t warmups_ = 0;
   double elapsed_s_ = 0;
-  bool rendered_ = false, finished_ = false;
+  bool rendered_ = false, finished_ = false, concluded_ = false;
 };
 
-// The report's name of an error: "case_failed", "device", or `input` for what the user gave.
+// The report's name of an error: "case_failed", or `input` for what the user gave.
 std::string error_kind(const Error& error, const char* input);
 
-// Calls `action`; hands whatever it throws to `failed(kind, message)`, the message on one line.
+// Calls `action`; hands whatever it throws to `failed(kind, message)`, the message on one line. Only
+// Error(device) goes on to the caller: a lost device ends more than what `action` was about.
 template <class Action, class Failed>
 void guarded(const char* input, const Action& action, const Failed& failed);
 
@@ -90,6 +115,7 @@ void guarded(const char* input, const Action& action, const Failed& failed) {
   try {
     action();
   } catch (const Error& e) {
+    if (e.kind() == ErrorKind::device) throw;
     failed(error_kind(e, input), one_line(e.what()));
   } catch (const std::bad_alloc&) {
     failed("case_failed", "out of memory; use a smaller frame, RSM or number of lights");

@@ -1,11 +1,12 @@
 #include "run/config.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
+#include "run/scene_pdfs.h"
 
 namespace fs = std::filesystem;
 
@@ -28,30 +29,45 @@ bool is_path(const std::string& name) {
   return name.find('/') != std::string::npos || name.ends_with(".json");
 }
 
+// Scene file and view, the same for "cornell", its default view by name, and its path; the scene as it stands
+// where the file can't be read: that shows when it is loaded.
+std::string identity_of(const std::string& scene, const fs::path& file, std::string view) {
+  try {
+    if (view.empty())
+      view = JsonDocument::load(file, ErrorKind::scene).root().at("default_view").get<std::string>();
+    return fs::canonical(file).string() + ":" + view;
+  } catch (const std::exception&) {
+    return scene;
+  }
+}
+
 // A scene that is misspelt is found now, not after an hour of measuring others. Whether its geometry is there
-// and sound shows when it is loaded.
-void check_scene_name(const JsonDocument& doc, const std::string& at, const std::string& scene) {
+// and sound shows when it is loaded. Returns what two names of the same scene share.
+std::string check_scene_name(const JsonDocument& doc, const std::string& at, const std::string& scene) {
   const size_t colon = scene.rfind(':'), slash = scene.rfind('/');
   const bool has_view = colon != std::string::npos && (slash == std::string::npos || colon > slash);
   const std::string name = has_view ? scene.substr(0, colon) : scene;
   std::error_code ec;
+  fs::path file = data_root() / "scenes" / name / "scene.json";
   if (is_path(name)) {
-    const fs::path file = fs::is_directory(name, ec) ? fs::path(name) / "scene.json" : fs::path(name);
+    file = fs::is_directory(name, ec) ? fs::path(name) / "scene.json" : fs::path(name);
     if (!fs::exists(file, ec))
       throw doc.error(at, fmt::format("no scene '{}': {} does not exist", name, file.string()));
-  } else if (!fs::exists(data_root() / "scenes" / name / "scene.json", ec) || name.empty()) {
+  } else if (!fs::exists(file, ec) || name.empty()) {
     throw doc.error(at,
                     fmt::format("no scene '{}'{}", name, suggestion(name, names_in(data_root() / "scenes"))));
   }
+  return identity_of(scene, file, has_view ? scene.substr(colon + 1) : "");
 }
 
 void check_scenes(const JsonDocument& doc, const std::vector<std::string>& scenes) {
-  std::set<std::string> seen;
+  std::map<std::string, std::string> seen;  // name, by what it stands for
   for (size_t i = 0; i < scenes.size(); ++i) {
     const std::string at = fmt::format("/scenes/{}", i);
-    check_scene_name(doc, at, scenes[i]);
-    if (!seen.insert(scenes[i]).second)
-      throw doc.error(at, fmt::format("the scene {} comes twice", scenes[i]));
+    const auto [first, fresh] = seen.emplace(check_scene_name(doc, at, scenes[i]), scenes[i]);
+    if (fresh) continue;
+    const std::string as = first->second == scenes[i] ? "" : fmt::format(", first as {}", first->second);
+    throw doc.error(at, fmt::format("the scene {} comes twice{}", scenes[i], as));
   }
 }
 
@@ -94,18 +110,36 @@ void read_reference(const JsonDocument& doc, Config* config) {
   }
 }
 
+// What only an image is judged with is refused where there is none.
+Measure read_measure(const JsonDocument& doc) {
+  if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
+  for (const char* key : {"seeds", "reference", "visibility", "ism"}) {
+    if (doc.root().contains(key))
+      throw doc.error(fmt::format("/{}", key), "is not read where only generation is measured");
+  }
+  return Measure::generation;
+}
+
 Json resolved_settings(const Config& config, const FrameParameters& base, const Json& root) {
+  const bool generation = config.measure == Measure::generation;
   Json out = {{"name", config.name},
               {"description", config.description},
+              {"measure", std::string(name(config.measure))},
               {"scenes", config.scenes},
               {"methods", root.at("methods")},
               {"frame", {{"width", base.width}, {"height", base.height}}}};
-  for (const auto& [key, value] : case_defaults().items()) out[key] = root.value(key, value);
-  out["ism"] = {{"size", base.ism.size}, {"points", base.ism.points}};
-  out["seeds"] = config.seeds;
-  out["reference"] = {{"samples", config.reference.samples},
-                      {"batches", config.reference.batches},
-                      {"seed", config.reference.seed}};
+  for (const auto& [key, value] : case_defaults().items()) {
+    if (key != "visibility" || !generation) out[key] = root.value(key, value);
+  }
+  if (!generation) {
+    out["ism"] = {{"size", base.ism.size}, {"points", base.ism.points}};
+    out["seeds"] = config.seeds;
+    out["reference"] = {{"samples", config.reference.samples},
+                        {"batches", config.reference.batches},
+                        {"seed", config.reference.seed}};
+  }
+  if (generation) out["pdfs_made_by"] = ScenePdfs::kMaker;
+  out["time_limit_s"] = config.time_limit_s;
   out["timing"] = {{"warmup", config.warmup},
                    {"min_samples", config.timing.min_samples},
                    {"max_samples", config.timing.max_samples},
@@ -139,7 +173,9 @@ Config load_config(const fs::path& path) {
   config.name = root.at("name");
   config.description = root.value("description", "");
   config.scenes = root.at("scenes").get<std::vector<std::string>>();
+  config.measure = read_measure(doc);
   config.seeds = root.value("seeds", config.seeds);
+  config.time_limit_s = root.value("time_limit_s", config.time_limit_s);
   check_scenes(doc, config.scenes);
   read_timing(doc, &config);
   read_reference(doc, &config);

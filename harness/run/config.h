@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "measure/stopping.h"
+#include "report/report.h"
 #include "run/sweep.h"
 
 namespace vsglbench {
@@ -17,10 +18,12 @@ struct ReferenceSettings {
 
 struct Config {
   std::string name, description;
+  Measure measure = Measure::frame;
   std::vector<std::string> scenes;
   std::vector<Case> cases;  // scene by scene, in the order of the file
   uint32_t seeds = 8;       // of every randomised method
   uint32_t warmup = 1;
+  double time_limit_s = 600;  // of one action of a case, such as a frame: after that it hangs
   StoppingRule timing{0.02, 8, 200, 30};
   ReferenceSettings reference;
   Json resolved;  // with every default filled in: the report's `config`

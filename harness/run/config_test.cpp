@@ -148,6 +148,43 @@ TEST_F(ConfigTest, ACaseThatComesTwice) {
   EXPECT_TRUE(contains(problem(), "the scene cornell comes twice"));
 }
 
+TEST_F(ConfigTest, TwoNamesOfOneSceneAreRefused) {
+  config_["scenes"] = {"cornell", "cornell:front"};
+  EXPECT_TRUE(contains(problem(), "the scene cornell:front comes twice, first as cornell"));
+  config_["scenes"] = {(data_root() / "scenes" / "cornell").string(), "cornell"};
+  EXPECT_TRUE(contains(problem(), "the scene cornell comes twice, first as /"));
+  config_["scenes"] = {"colonnade", "colonnade:cut"};
+  EXPECT_EQ(load().cases.size(), 2u);
+}
+
+TEST_F(ConfigTest, GenerationAloneReadsNothingOfImages) {
+  config_["measure"] = "generation";
+  for (const char* key : {"seeds", "reference"}) {
+    EXPECT_TRUE(contains(problem(), fmt::format("'{}' is not read where only generation is measured", key)));
+    config_.erase(key);
+  }
+  EXPECT_EQ(ids(), std::vector<std::string>{"cornell/vpl/N=16,rsm=16"});
+  const Config config = load();
+  EXPECT_EQ(config.measure, Measure::generation);
+  EXPECT_EQ(config.cases[0].frame.visibility, Visibility::none);
+  config_["visibility"] = "none";
+  EXPECT_TRUE(contains(problem(), "'visibility' is not read"));
+  config_.erase("visibility");
+  config_["methods"][0]["visibility"] = "none";
+  EXPECT_TRUE(contains(problem(), "is not read where only generation is measured"));
+  config_["measure"] = "everything";
+  EXPECT_TRUE(contains(problem(), "measure"));
+}
+
+TEST_F(ConfigTest, TheTimeLimitHasADefault) {
+  EXPECT_EQ(load().time_limit_s, 600);
+  config_["time_limit_s"] = 2.5;
+  EXPECT_EQ(load().time_limit_s, 2.5);
+  EXPECT_EQ(load().resolved.at("time_limit_s"), 2.5);
+  config_["time_limit_s"] = 0;
+  EXPECT_TRUE(contains(problem(), "must be over 0"));
+}
+
 TEST_F(ConfigTest, ASweepOfMillionsIsRefused) {
   Json many = Json::array();
   for (int i = 1; i <= 2000; ++i) many.push_back(i);

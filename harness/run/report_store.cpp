@@ -49,6 +49,11 @@ ReportStore::~ReportStore() {
   if (lock_ >= 0) ::close(lock_);  // gives the lock back, too
 }
 
+void ReportStore::leave_to_parent() {
+  if (lock_ >= 0) ::close(lock_);
+  lock_ = -1;
+}
+
 Report ReportStore::open(const Report& fresh, bool anew) {
   std::error_code ec;
   if (!fs::exists(path_, ec)) return fresh;

@@ -22,6 +22,9 @@ class ReportStore {
   // What to go on with: the report of an interrupted run of the same experiment, program and device; else
   // `fresh`, and always so with `anew`.
   Report open(const Report& fresh, bool anew);
+  // In a child process: closes its copy of the lock, which is the parent's alone. Without it a child that
+  // dies a moment after the parent would keep the next run out.
+  void leave_to_parent();
   // Throws Error(output); then the earlier report stands where it stood.
   void save(const Report& report);
   const std::filesystem::path& path() const { return path_; }

@@ -4,34 +4,22 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "gpu/shader_compiler.h"
 #include "measure/stopwatch.h"
+#include "method/registry.h"
 #include "report/environment.h"
 #include "run/report_store.h"
-#include "run/scene_run.h"
+#include "run/scene_workers.h"
 
 namespace fs = std::filesystem;
 
 namespace vsglbench {
 namespace {
-
-DeviceReport describe(const DeviceInfo& info) {
-  DeviceReport d{.name = info.name,
-                 .type = info.type,
-                 .driver = info.driver,
-                 .driver_version = info.driver_version,
-                 .api = info.api,
-                 .subgroup_size = info.subgroup_size,
-                 .timestamp_period_ns = info.timestamp_period_ns};
-  // What changes how fast or how exactly a driver computes.
-  for (const char* name : {"LP_NATIVE_VECTOR_WIDTH", "LP_NUM_THREADS", "MESA_SHADER_CACHE_DISABLE"}) {
-    if (const char* value = std::getenv(name)) d.settings[name] = value;
-  }
-  return d;
-}
 
 std::vector<Case> select(const Config& config, const std::string& only) {
   std::vector<Case> cases;
@@ -52,25 +40,41 @@ std::vector<Case> of_scene(const std::vector<Case>& cases, const std::string& sc
   return out;
 }
 
-// Whether an interrupted run left nothing to do: a scene whose asset was absent, or that a lost device cut
-// short, is tried again.
+// A scene whose asset was absent, or a case that no device was left for, is tried again.
+bool is_final(const CaseResult& r) {
+  return r.status != Status::skipped && !(r.error && r.error->kind == "device");
+}
+
+// Whether an interrupted run left nothing to do.
 bool is_done(const Report& report, const std::vector<Case>& cases) {
   return std::all_of(cases.begin(), cases.end(), [&](const Case& c) {
-    return std::any_of(report.cases.begin(), report.cases.end(), [&](const CaseResult& r) {
-      return r.id == c.id && r.status != Status::skipped && !(r.error && r.error->kind == "device");
-    });
+    return std::any_of(report.cases.begin(), report.cases.end(),
+                       [&](const CaseResult& r) { return r.id == c.id && is_final(r); });
   });
 }
 
-void remove_scene(Report* report, const std::string& scene) {
+// Takes the scene out of the report: what an interrupted run had finished of it.
+SceneOutcome take_scene(Report* report, const std::string& scene) {
+  SceneOutcome out;
+  for (const CaseResult& c : report->cases) {
+    if (c.scene == scene && is_final(c)) out.cases.push_back(c);
+  }
+  for (const SceneReport& s : report->scenes) {
+    if (s.name == scene && !out.cases.empty()) out.scene = s;
+  }
   std::erase_if(report->scenes, [&](const SceneReport& s) { return s.name == scene; });
   std::erase_if(report->cases, [&](const CaseResult& c) { return c.scene == scene; });
-  if (report->aa && report->aa->case_id.starts_with(scene + "/")) report->aa.reset();
+  if (report->aa && report->aa->case_id.starts_with(scene + "/")) {
+    if (!out.cases.empty()) out.aa = report->aa;
+    report->aa.reset();
+  }
+  return out;
 }
 
-void add(SceneOutcome outcome, Report* report) {
+void add(SceneOutcome outcome, const std::vector<Case>& planned, Report* report) {
   if (outcome.scene) report->scenes.push_back(*outcome.scene);
   if (outcome.aa) report->aa = outcome.aa;
+  sort_like(planned, &outcome.cases);
   std::move(outcome.cases.begin(), outcome.cases.end(), std::back_inserter(report->cases));
 }
 
@@ -86,38 +90,42 @@ WallTime sum(const WallTime& earlier, WallTime now, double total_s) {
   return now;
 }
 
-bool has_device_error(const std::vector<CaseResult>& cases) {
-  return std::any_of(cases.begin(), cases.end(),
-                     [](const CaseResult& c) { return c.error && c.error->kind == "device"; });
+// Of everything that is compiled at run time, and of the methods' plugins.
+std::string sources_hash(const Config& config) {
+  std::set<std::string> methods;
+  for (const Case& c : config.cases) methods.insert(c.method);
+  Hasher hasher;
+  hasher.text(kernel_sources_hash());
+  for (const auto& name : methods) hasher.text(plugin_hash(find_method(name)));
+  return hasher.hex();
 }
 
-// Whether the device still does as it is told.
-bool is_lost(Device& device) {
-  try {
-    device.run_once([](VkCommandBuffer) {});
-    return false;
-  } catch (const Error&) {
-    return true;
-  }
-}
-
-Report fresh_report(const RunOptions& options, const Config& config, const DeviceInfo& device) {
+Report fresh_report(const RunOptions& options, const Config& config, const DeviceReport& device) {
   Report report;
   report.created = utc_now();
   report.argv = options.argv;
   report.git = build_git();
-  report.kernels = kernel_sources_hash();
-  report.device = describe(device);
+  report.kernels = sources_hash(config);
+  report.device = device;
   report.host = host_info();
   report.config = config.resolved;
   if (!options.only.empty()) report.config["only"] = options.only;
   return report;
 }
 
-int exit_code(const RunOutcome& outcome, bool lost) {
+int exit_code(const RunOutcome& outcome, bool device_gone) {
   const bool failed = std::any_of(outcome.report.cases.begin(), outcome.report.cases.end(),
                                   [](const CaseResult& c) { return c.status == Status::failed; });
-  return lost ? 3 : failed || !outcome.validation_messages.empty() ? 1 : 0;
+  return device_gone ? 3 : failed || !outcome.validation_messages.empty() ? 1 : 0;
+}
+
+WorkerOptions worker_options(const RunOptions& options, const Config& config, ReportStore& store) {
+  return {.device = {.select = options.device, .validation = options.validation},
+          .scenes = {data_root() / "scenes", assets_directory(options.assets)},
+          .out = store.path().parent_path(),
+          .time_limit_s = options.time_limit_s > 0 ? options.time_limit_s : config.time_limit_s,
+          .detach = [&store] { store.leave_to_parent(); },
+          .sabotage = options.sabotage};
 }
 
 }  // namespace
@@ -133,42 +141,44 @@ RunOutcome run_config(const RunOptions& options) {
   const Config config = load_config(options.config);
   const std::vector<Case> cases = select(config, options.only);
   ReportStore store(options.out.empty() ? fs::path("reports") / "out" / config.name : options.out);
-  Device device({.select = options.device, .validation = options.validation});
-  log_info("{} ({}, {})", device.info().name, device.info().driver, device.info().driver_version);
+  const WorkerOptions workers = worker_options(options, config, store);
+  const DeviceReport device = probe_device(workers);
+  log_info("{} ({}, {})", device.name, device.driver, device.driver_version);
 
   RunOutcome outcome;
   outcome.report_path = store.path();
-  Report& report = outcome.report = store.open(fresh_report(options, config, device.info()), options.force);
+  Report& report = outcome.report = store.open(fresh_report(options, config, device), options.force);
   if (!report.cases.empty()) log_info("going on with the interrupted run in {}", store.path().string());
   const WallTime earlier = report.wall;
-  WallTime now;
-  const auto save = [&] {
-    report.wall = sum(earlier, now, watch.seconds());
-    store.save(report);
+  WorkerLog log;
+  const auto save = [&](Report& state) {
+    state.wall = sum(earlier, log.wall, watch.seconds());
+    store.save(state);
   };
 
-  KernelLibrary kernels(device);
-  bool lost = false;
   for (const std::string& scene : config.scenes) {
     const std::vector<Case> wanted = of_scene(cases, scene);
     if (wanted.empty() || is_done(report, wanted)) continue;
-    remove_scene(&report, scene);
-    if (lost) {
-      add({failed_cases(wanted, config, "device", "the device was lost in an earlier scene"), {}, {}},
-          &report);
-      continue;
+    SceneOutcome done = take_scene(&report, scene);
+    const auto save_so_far = [&] {
+      Report so_far = report;
+      add(done, wanted, &so_far);
+      save(so_far);
+    };
+    if (log.device_gone.empty()) {
+      const bool aa = !report.aa && !done.aa;
+      run_scene_in_workers(scene, config, wanted, aa, workers, save_so_far, &done, &log);
+    } else {
+      for (auto& result : failed_cases(wanted, config, "device", "the device was lost in an earlier scene"))
+        done.cases.push_back(result);
     }
-    const SceneRunOptions scene_options{
-        {data_root() / "scenes", assets_directory(options.assets)}, store.path().parent_path(), !report.aa};
-    SceneOutcome done = run_scene(device, kernels, scene, config, wanted, scene_options, &now);
-    lost = has_device_error(done.cases) && is_lost(device);
-    add(std::move(done), &report);
-    save();  // what is finished is never lost
+    add(std::move(done), wanted, &report);
+    save(report);  // what is finished is never lost
   }
-  report.complete = !lost;
-  save();
-  outcome.validation_messages = device.validation_messages();
-  outcome.exit_code = exit_code(outcome, lost);
+  report.complete = log.device_gone.empty();
+  save(report);
+  outcome.validation_messages = log.validation_messages;
+  outcome.exit_code = exit_code(outcome, !log.device_gone.empty());
   return outcome;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/report.h"
+#include "run/activity.h"
 
 namespace vsglbench {
 
@@ -17,6 +18,8 @@ struct RunOptions {
   std::string device;            // index or part of a name; empty: the first usable
   bool force = false;            // measure again what an interrupted run had finished
   bool validation = false;       // with the validation layers; a message fails the run
+  double time_limit_s = 0;       // replaces the config's; 0: the config's
+  Announce sabotage;             // tests only, see WorkerOptions
   std::vector<std::string> argv;
 };
 
@@ -25,13 +28,14 @@ struct RunOutcome {
   std::filesystem::path report_path;
   std::vector<std::string> validation_messages;
   // 0 all cases ok (skipped ones count as ok); 1 a case failed or the validation layers had something to say;
-  // 3 the device was lost (the report is then incomplete, and the run can be gone on with)
+  // 3 the device was lost for good (the report is then incomplete, and the run can be gone on with)
   int exit_code = 0;
 };
 
 // A scene's cases are measured interleaved, so they are finished, and saved, together: an interruption at any
-// moment loses the scene at hand and nothing else. Throws Error for what stops the whole run: config, output
-// folder, device.
+// moment loses the scene at hand and nothing else. Where a worker process died the report is saved with what
+// that had finished. For a process without threads and without a Vulkan device: it forks. Throws Error for
+// what stops the whole run: config, output folder, no device at the start.
 RunOutcome run_config(const RunOptions& options);
 
 // The options' folder, or VSGLBENCH_ASSETS, or empty.

@@ -59,33 +59,25 @@ std::string detail_of(const CaseResult& c) {
                      percent(c.accuracy->bias, 100, "{:+.2f} %"));
 }
 
-// The first case with an image gives the sheet its reference; a case with another one carries its own.
-ContactSheet sheet_of(const std::vector<CaseRun>& cases, const std::vector<CaseResult>& results,
-                      const SceneReport& scene) {
-  const auto drawn =
-      std::find_if(cases.begin(), cases.end(), [](const CaseRun& c) { return c.image().has_value(); });
-  const ReferenceResult& shown = *drawn->reference();
+bool has_image(const CaseResult& c) { return c.images.contains("indirect"); }
+
+// A case with another reference than the one shown carries its own.
+ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases, const SceneReport& scene,
+                      const ReferenceResult& shown) {
   ContactSheet sheet;
   sheet.title = scene.name + ": one-bounce indirect light";
   sheet.reference = shown.mean;
   sheet.reference_detail = fmt::format("{} samples, floor {:.2f} %", shown.samples, shown.noise_floor_smape);
   sheet.mask = shown.mask;
   sheet.exposure = static_cast<float>(scene.exposure);
-  for (size_t i = 0; i < cases.size(); ++i) {
-    const CaseResult& r = results[i];
-    ContactEntry entry{r.method + " " + parameters_of(r), detail_of(r), cases[i].image(), std::nullopt};
-    if (entry.image && cases[i].reference() != &shown) entry.reference = cases[i].reference()->mean;
+  for (const CaseResult& c : cases) {
+    ContactEntry entry{c.method + " " + parameters_of(c), detail_of(c), std::nullopt, std::nullopt};
+    if (has_image(c)) entry.image = read_exr(out / c.images.at("indirect"));
+    if (has_image(c) && c.accuracy && c.accuracy->reference.hash != shown.hash)
+      entry.reference = read_exr(out / c.images.at("reference"));
     sheet.entries.push_back(std::move(entry));
   }
   return sheet;
-}
-
-void write_direct(const fs::path& out, std::vector<CaseRun>& cases, const SceneReport& scene) {
-  const auto alive =
-      std::find_if(cases.begin(), cases.end(), [](CaseRun& c) { return c.frame() != nullptr; });
-  if (alive == cases.end()) return;
-  write_pair(out, folder_of(scene.name) + "/direct", alive->frame()->render_direct(),
-             static_cast<float>(scene.exposure));
 }
 
 }  // namespace
@@ -107,33 +99,46 @@ std::string file_name(const std::string& name) {
   return out.substr(0, kLongestName) + "-" + short_hash(name);
 }
 
-void write_images(const fs::path& out, std::vector<CaseRun>& cases, std::vector<CaseResult>& results,
-                  SceneReport* scene) {
-  const auto drawn =
-      std::find_if(cases.begin(), cases.end(), [](const CaseRun& c) { return c.image().has_value(); });
-  if (drawn == cases.end()) return;
-  scene->exposure = auto_exposure(drawn->reference()->mean, drawn->reference()->mask);
-  for (size_t i = 0; i < cases.size(); ++i) {
-    if (!cases[i].image()) continue;
-    const auto failed = [&](const std::string& kind, const std::string& message) {
-      if (results[i].status == Status::ok) results[i].error = CaseError{kind, message};
-      if (results[i].status == Status::ok) results[i].status = Status::failed;
-    };
-    guarded(
-        "output", [&] { write_case(out, cases[i], static_cast<float>(scene->exposure), &results[i]); },
-        failed);
-  }
-  const auto warn = [&](const std::string&, const std::string& message) {
-    log_warning("{}: {}", scene->name, message);
+SceneImages::SceneImages(fs::path out, const std::vector<CaseResult>& earlier, SceneReport* scene)
+    : out_(std::move(out)), scene_(scene), exposed_(std::any_of(earlier.begin(), earlier.end(), has_image)) {}
+
+void SceneImages::write(CaseRun& run, CaseResult* result) {
+  if (!run.image()) return;
+  if (!exposed_) scene_->exposure = auto_exposure(run.reference()->mean, run.reference()->mask);
+  exposed_ = true;
+  const auto failed = [&](const std::string& kind, const std::string& message) {
+    if (result->status == Status::ok) result->error = CaseError{kind, message};
+    if (result->status == Status::ok) result->status = Status::failed;
   };
   guarded(
-      "output", [&] { write_direct(out, cases, *scene); }, warn);
-  const auto write_sheet = [&] {
-    const std::string path = folder_of(scene->name) + "/contact.png";
-    write_png(out / path, contact_sheet(sheet_of(cases, results, *scene)));
-    scene->contact = path;
+      "output", [&] { write_case(out_, run, static_cast<float>(scene_->exposure), result); }, failed);
+  if (!direct_ && run.frame()) write_direct(*run.frame());
+}
+
+void SceneImages::write_direct(Frame& frame) {
+  direct_ = true;
+  const auto warn = [&](const std::string&, const std::string& message) {
+    log_warning("{}: {}", scene_->name, message);
   };
-  guarded("output", write_sheet, warn);
+  guarded(
+      "output",
+      [&] {
+        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(),
+                   static_cast<float>(scene_->exposure));
+      },
+      warn);
+}
+
+void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown) {
+  const auto warn = [&](const std::string&, const std::string& message) {
+    log_warning("{}: {}", scene_->name, message);
+  };
+  const auto write_it = [&] {
+    const std::string path = folder_of(scene_->name) + "/contact.png";
+    write_png(out_ / path, contact_sheet(sheet_of(out_, cases, *scene_, shown)));
+    scene_->contact = path;
+  };
+  guarded("output", write_it, warn);
 }
 
 }  // namespace vsglbench

@@ -15,10 +15,29 @@ namespace vsglbench {
 // meet.
 std::string file_name(const std::string& name);
 
-// Writes to out/images/<scene>/ and notes the paths, relative to `out`, in `results` (one for each of
-// `cases`) and `scene`. Never throws: a case whose images can't be written fails with kind "output" and keeps
-// its numbers; without a contact sheet or direct light there is a warning.
-void write_images(const std::filesystem::path& out, std::vector<CaseRun>& cases,
-                  std::vector<CaseResult>& results, SceneReport* scene);
+// Writes to out/images/<scene>/, every case as soon as it is measured: what is on the disk survives whatever
+// a later case does. Nothing here throws but Error(device).
+class SceneImages {
+ public:
+  // `earlier`: cases of the scene that another process has measured. Notes exposure and contact sheet in
+  // `scene`.
+  SceneImages(std::filesystem::path out, const std::vector<CaseResult>& earlier, SceneReport* scene);
+
+  // Its image, error map and reference, the first time the scene's direct light, too. Notes their paths,
+  // relative to `out`, in `result`; where they can't be written the case fails with kind "output" and keeps
+  // its numbers. A case without an image is left alone.
+  void write(CaseRun& run, CaseResult* result);
+
+  // The contact sheet of all cases, from what was written; without it there is a warning. `shown`: the
+  // reference of the first case that has an image.
+  void write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown);
+
+ private:
+  void write_direct(Frame& frame);
+  std::filesystem::path out_;
+  SceneReport* scene_;
+  bool exposed_ = false;  // the scene's exposure is chosen
+  bool direct_ = false;   // written
+};
 
 }  // namespace vsglbench

@@ -10,10 +10,21 @@
 
 namespace vsglbench {
 
+// What is known of a scene and its cases.
 struct SceneOutcome {
-  std::vector<CaseResult> cases;     // one for each that was asked for, in their order
+  std::vector<CaseResult> cases;     // in the order in which they came to an end
   std::optional<SceneReport> scene;  // nothing when it could not be loaded
   std::optional<AaPair> aa;
+};
+
+// Is told everything as soon as it is known.
+class SceneObserver {
+ public:
+  virtual ~SceneObserver() = default;
+  virtual void now(const Activity& activity) = 0;
+  virtual void described(const SceneReport& scene) = 0;  // may come again with more in it
+  virtual void concluded(const CaseResult& result) = 0;  // its images are on the disk; the first one counts
+  virtual void paired(const AaPair& pair) = 0;
 };
 
 struct SceneRunOptions {
@@ -22,12 +33,21 @@ struct SceneRunOptions {
   bool aa = false;            // measure the first sound case a second time under another name
 };
 
-// Never throws: what is wrong with a case or a scene is in the outcome.
-SceneOutcome run_scene(Device& device, KernelLibrary& kernels, const std::string& scene, const Config& config,
-                       const std::vector<Case>& cases, const SceneRunOptions& options, WallTime* wall);
+// A case's name when it is measured a second time.
+std::string twin_id(const std::string& case_id);
+
+// Concludes each of `cases`; then the contact sheet, which shows those of `earlier`, too: cases that another
+// process has measured. Throws Error(device) when the device is lost; whatever else is wrong with a case or
+// with the scene is in the results.
+void run_scene(Device& device, KernelLibrary& kernels, const std::string& scene, const Config& config,
+               const std::vector<Case>& cases, const SceneOutcome& earlier, const SceneRunOptions& options,
+               SceneObserver& observer, WallTime* wall);
 
 // Cases that were not run, all for the same reason.
 std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config,
                                      const std::string& kind, const std::string& message);
+
+// `results` in the order of the experiment's cases.
+void sort_like(const std::vector<Case>& cases, std::vector<CaseResult>* results);
 
 }  // namespace vsglbench

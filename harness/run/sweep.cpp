@@ -52,6 +52,7 @@ class Entry {
       : doc_(doc),
         json_(doc.root().at("methods").at(index)),
         at_(fmt::format("/methods/{}", index)),
+        sees_(doc.root().value("measure", "frame") == "frame"),
         method_(find()) {
     check_keys();
     add_axes();
@@ -82,8 +83,8 @@ class Entry {
     }
   }
 
-  // A plugin that was refused costs its own cases and nothing else: they are made, and fail. What parameters it
-  // has is not known.
+  // A plugin that was refused costs its own cases and nothing else: they are made, and fail. What parameters
+  // it has is not known.
   bool usable() const { return method_.refused.empty(); }
 
   void check_keys() const {
@@ -99,13 +100,16 @@ class Entry {
       if (key == "N" && !method_.takes_light_count) {
         throw doc_.error(at, fmt::format("is not read: {} makes a light of every texel", method_.name));
       }
+      if (key == "visibility" && !sees_)
+        throw doc_.error(at, "is not read where only generation is measured");
       if (value.is_array() && value.empty()) throw doc_.error(at, "is an empty list: it would make no case");
     }
   }
 
   void add_axes() {
     for (const auto& key : case_keys()) {
-      if (key != "N" || method_.takes_light_count) add_axis(key, true);
+      const bool read = key == "N" ? method_.takes_light_count : key == "visibility" ? sees_ : true;
+      if (read) add_axis(key, true);
     }
     for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
     if (usable()) return;
@@ -140,6 +144,7 @@ class Entry {
     c.scene = scene;
     c.method = method_.name;
     c.frame = base;
+    if (!sees_) c.frame.visibility = Visibility::none;
     std::string names;
     Json own = Json::object();
     for (size_t i = 0; i < axes_.size(); ++i) {
@@ -198,7 +203,7 @@ class Entry {
     p["width"] = c.frame.width;
     p["height"] = c.frame.height;
     p["importance_lights"] = c.frame.importance_lights;
-    p["visibility"] = visibility_name(c.frame.visibility);
+    if (sees_) p["visibility"] = visibility_name(c.frame.visibility);
     if (c.frame.visibility == Visibility::ism)
       p["ism"] = {{"size", c.frame.ism.size}, {"points", c.frame.ism.points}};
     for (const auto& [key, value] : c.method_parameters.items()) p[key] = value;
@@ -208,6 +213,7 @@ class Entry {
   const JsonDocument& doc_;
   const Json& json_;
   std::string at_;
+  bool sees_;  // a frame is shaded, and visibility matters
   const MethodInfo& method_;
   std::vector<Axis> axes_;
 };

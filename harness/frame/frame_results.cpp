@@ -1,0 +1,118 @@
+// What a frame left on the device, read back.
+#include <algorithm>
+#include <cmath>
+
+#include "frame/frame.h"
+
+namespace vsglbench {
+namespace {
+
+bool all_finite(const float* begin, size_t count) {
+  return std::all_of(begin, begin + count, [](float v) { return std::isfinite(v); });
+}
+
+// Every field of a light is a float.
+template <class Light>
+bool is_finite(const Light& light) {
+  return all_finite(reinterpret_cast<const float*>(&light), sizeof light / sizeof(float));
+}
+
+template <class Light>
+bool all_finite(const std::vector<Light>& lights) {
+  return std::all_of(lights.begin(), lights.end(), is_finite<Light>);
+}
+
+template <class Light>
+void check(const std::vector<Light>& lights, const char* pass, LightHealth* health) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (is_finite(lights[i])) continue;
+    const float* fields = reinterpret_cast<const float*>(&lights[i]);
+    const bool nan =
+        std::any_of(fields, fields + sizeof lights[i] / sizeof(float), [](float v) { return std::isnan(v); });
+    (nan ? health->nan : health->inf) += 1;
+    if (health->first_bad_pass.empty()) {
+      health->first_bad_pass = pass;
+      health->first_bad = i;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<glm::vec4> download_map(const DeviceImage& image) {
+  std::vector<glm::vec4> texels(size_t(image.width()) * image.height());
+  image.download(texels.data(), texels.size() * sizeof(glm::vec4));
+  return texels;
+}
+
+std::vector<LightPoint> Frame::light_points() const {
+  std::vector<LightPoint> points;
+  for (const auto& light : vsgls()) points.push_back({light.mean, std::sqrt(light.variance)});
+  for (const auto& light : vpls()) points.push_back({light.position, 0});
+  return points;
+}
+
+Image Frame::indirect() const {
+  Image image(camera_.width, camera_.height);
+  const auto texels = stage_.scratch.get("indirect", image.pixels.size() * sizeof(glm::vec4))
+                          .download<glm::vec4>(image.pixels.size());
+  std::transform(texels.begin(), texels.end(), image.pixels.begin(),
+                 [](const glm::vec4& t) { return glm::vec3(t); });
+  return image;
+}
+
+std::vector<uint8_t> Frame::surface_mask() const {
+  const auto position = download_map(gbuffer_->maps[0]);
+  std::vector<uint8_t> mask(position.size());
+  std::transform(position.begin(), position.end(), mask.begin(), [](const glm::vec4& p) { return p.w > 0; });
+  return mask;
+}
+
+std::vector<gpu::Vsgl> Frame::vsgls() const {
+  if (method_->kind() != LightKind::vsgl) return {};
+  return const_cast<Frame*>(this)->light_buffer(Half::rsm, light_count_).download<gpu::Vsgl>(light_count_);
+}
+
+std::vector<gpu::Vpl> Frame::vpls() const {
+  if (method_->kind() != LightKind::vpl) return {};
+  return const_cast<Frame*>(this)->light_buffer(Half::rsm, light_count_).download<gpu::Vpl>(light_count_);
+}
+
+std::vector<float> Frame::importance() const {
+  if (!method_->uses_importance()) return {};
+  return const_cast<Frame*>(this)->pdf_buffer(Half::rsm).download<float>(size_t(light_.width) *
+                                                                         light_.height);
+}
+
+std::string Frame::first_bad_pass() const {
+  const auto bad_maps = [&](const DeferredTargets& targets) {
+    return std::any_of(targets.maps.begin(), targets.maps.end(), [&](const DeviceImage& map) {
+      const auto texels = download_map(map);
+      return !all_finite(&texels.front().x, 4 * texels.size());
+    });
+  };
+  if (bad_maps(*gbuffer_)) return "gbuffer";
+  if (bad_maps(*rsm_)) return "rsm";
+  if (const auto p = importance(); !all_finite(p.data(), p.size())) return "importance.rsm";
+  if (!all_finite(vsgls()) || !all_finite(vpls())) return "generate.rsm";
+  const Image image = indirect();
+  return all_finite(&image.pixels.front().x, 3 * image.pixels.size()) ? "" : "shade";
+}
+
+LightHealth Frame::light_health() const {
+  LightHealth health;
+  const bool vpl = method_->kind() == LightKind::vpl;
+  const auto check_half = [&](Half half, uint32_t count, const char* pass) {
+    const Buffer& lights = const_cast<Frame*>(this)->light_buffer(half, count);
+    if (vpl) {
+      check(lights.download<gpu::Vpl>(count), pass, &health);
+    } else {
+      check(lights.download<gpu::Vsgl>(count), pass, &health);
+    }
+  };
+  if (method_->uses_importance()) check_half(Half::gbuffer, importance_count_, "generate.gbuffer");
+  check_half(Half::rsm, light_count_, "generate.rsm");
+  return health;
+}
+
+}  // namespace vsglbench
