@@ -100,26 +100,25 @@ TEST_F(CliTest, AbsurdSizesFailWithoutTakingTheMemory) {
       1, "a reference of 16384 x 16384 needs about");
 }
 
-// --- methods that are broken: a copy of the data with a kernel of its own ---
+// --- methods that are broken: a copy of one with a kernel of its own ---
 
 class BrokenKernel : public CliTest {
  protected:
-  // Adds `statement` to the end of a copy of vpl's kernel, after lights[i] was written.
+  // Puts `statement` into a copy of vpl's kernel, before it returns its light `v`.
   void edit(const std::string& statement) const {
-    const fs::path root = folder_ / "root", source = VSGLBENCH_SOURCE_DIR;
-    fs::create_directories(root);
-    for (const char* name : {"harness", "methods", "scenes", "configs"}) {
-      fs::copy(source / name, root / name,
-               fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-    }
-    const fs::path kernel = root / "methods" / "vpl" / "vpl.comp";
-    std::string text = read_text(kernel);
-    text.insert(text.rfind('}'), statement + "\n");
-    write_text(kernel, text);
-    ::setenv("VSGLBENCH_ROOT", root.c_str(), 1);
+    const fs::path plugins = folder_ / "plugins", source = fs::path(VSGLBENCH_SOURCE_DIR) / "methods" / "vpl";
+    fs::create_directories(plugins / "vpl");
+    fs::copy_file(fs::path(VSGLBENCH_BINARY_DIR) / "lib" / "vsglbench" / "plugins" / "vpl.so",
+                  plugins / "vpl.so", fs::copy_options::overwrite_existing);
+    std::string text = read_text(source / "vpl.comp");
+    const size_t at = text.find("return make_vpl("), end = text.find(';', at);
+    const std::string light = text.substr(at + 7, end - at - 7);
+    text.replace(at, end + 1 - at, "Vpl v = " + light + ";\n" + statement + "\nreturn v;");
+    write_text(plugins / "vpl" / "vpl.comp", text);
+    ::setenv("VSGLBENCH_PLUGINS", plugins.c_str(), 1);
   }
   void TearDown() override {
-    ::unsetenv("VSGLBENCH_ROOT");
+    ::unsetenv("VSGLBENCH_PLUGINS");
     CliTest::TearDown();
   }
   void run_both(const std::string& part) {
@@ -145,7 +144,7 @@ TEST_F(BrokenKernel, ThatDoesNotCompile) {
 }
 
 TEST_F(BrokenKernel, ThatMakesANaN) {
-  edit("if (i == 3u) { lights[i].flux = vec3(uintBitsToFloat(0x7fc00000u)); lights[i].power = 1.0; }");
+  edit("if (i == 3u) { v.flux = vec3(uintBitsToFloat(0x7fc00000u)); v.power = 1.0; }");
   config_["visibility"] = "none";
   run_both("NaN");
   const Report r = report();
@@ -155,9 +154,9 @@ TEST_F(BrokenKernel, ThatMakesANaN) {
 }
 
 TEST_F(BrokenKernel, ThatPutsALightNowhere) {
-  edit("if (i == 3u) lights[i].position = vec3(uintBitsToFloat(0x7f800000u));");
+  edit("if (i == 3u) v.position = vec3(uintBitsToFloat(0x7f800000u));");
   run_both("light 3 of pass generate.rsm stands at (inf, inf, inf)");
-  edit("if (i == 3u) lights[i].position = vec3(1e30);");
+  edit("if (i == 3u) v.position = vec3(1e30);");
   run_both("not a place in the scene");
 }
 

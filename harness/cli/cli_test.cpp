@@ -11,10 +11,12 @@ namespace vsglbench {
 namespace {
 
 TEST_F(CliTest, EveryCommandHasHelpWithAnExample) {
-  for (const char* command : {"run", "list", "reference", "doctor"}) {
+  for (const char* command :
+       {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size", "kernels"}) {
     const Finished f = run({command, "--help"});
     EXPECT_EQ(f.code, 0);
-    EXPECT_TRUE(contains(f.out, fmt::format("Example: vsglbench {}", command)));
+    EXPECT_TRUE(contains(f.out, "Example"));
+    EXPECT_TRUE(contains(f.out, fmt::format(": vsglbench {}", command)));
   }
   const Finished f = run({"--help"});
   EXPECT_EQ(f.code, 0);
@@ -53,6 +55,33 @@ TEST_F(CliTest, ListsAreTextOrJson) {
     const Json rows = Json::parse(json.out);
     ASSERT_FALSE(rows.empty()) << what;
     for (const auto& row : rows) EXPECT_TRUE(contains(text.out, row.at("name").get<std::string>()));
+  }
+}
+
+TEST_F(CliTest, KernelsTimesABlockAndWritesItDown) {
+  const std::string file = (folder_ / "kernels.json").string();
+  const Finished f =
+      run({"kernels", "sort", "-q", "--sizes", "1000", "3000", "--repetitions", "2", "--out", file});
+  EXPECT_EQ(f.code, 0) << f.err;
+  EXPECT_TRUE(contains(f.out, "std::sort"));
+  EXPECT_TRUE(contains(f.out, "grows as size^"));
+  const Json report = Json::parse(read_text(file));
+  EXPECT_EQ(report.at("schema"), "vsglbench.kernels/1");
+  EXPECT_FALSE(report.at("blocks").at(0).at("times").empty());
+  expect_refused(run({"kernels", "bubble"}), 2, "bubble");
+  expect_refused(run({"kernels", "sort", "--sizes", "0"}), 2, "sizes");
+}
+
+TEST_F(CliTest, CodeSizeHasARowForEachMethod) {
+  const Finished f = run({"code-size"}), json = run({"code-size", "--json"});
+  EXPECT_EQ(f.code, 0) << f.err;
+  for (const char* method : {"all-texels", "vpl", "fis", "mfis", "kmeans2d", "kmeans3d-segmented"}) {
+    EXPECT_TRUE(contains(f.out, method));
+  }
+  EXPECT_TRUE(contains(f.out, "9, 39, 1172"));
+  for (const auto& row : Json::parse(json.out)) {
+    EXPECT_GT(row.at("own_lines"), 0);
+    EXPECT_GT(row.at("dispatches").at("rsm"), 0);
   }
 }
 

@@ -16,5 +16,9 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
 void add_list_command(CLI::App& app, CommandResult* result);
 void add_reference_command(CLI::App& app, CommandResult* result);
 void add_doctor_command(CLI::App& app, CommandResult* result);
+void add_check_method_command(CLI::App& app, CommandResult* result);
+void add_new_method_command(CLI::App& app, CommandResult* result);
+void add_code_size_command(CLI::App& app, CommandResult* result);
+void add_kernels_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 
 }  // namespace vsglbench

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "cli/command.h"
 #include "gpu/device.h"
+#include "method/registry.h"
 #include "report/environment.h"
 
 namespace vsglbench {
@@ -64,13 +65,21 @@ bool examine_devices() {
 bool examine_data() {
   fmt::print("data        {}\n", data_root().string());
   bool complete = true;
-  for (const char* folder : {"harness/shaders", "harness/frame", "methods", "scenes", "configs"}) {
+  for (const char* folder : {"harness/shaders", "harness/frame", "methods/_template", "scenes", "configs"}) {
     std::error_code ec;
     if (std::filesystem::is_directory(data_root() / folder, ec)) continue;
     fmt::print("  missing   {}; set VSGLBENCH_ROOT to the source or installed folder\n", folder);
     complete = false;
   }
   return complete;
+}
+
+void examine_methods() {
+  for (const auto& folder : plugin_folders()) fmt::print("plugins     {}\n", folder.string());
+  for (const MethodInfo* method : all_methods()) {
+    fmt::print("  {:<8}  {}\n", method->refused.empty() ? "method" : "refused",
+               method->refused.empty() ? method->name : method->refused);
+  }
 }
 
 void examine_cache() {
@@ -86,6 +95,7 @@ void examine() {
   print_host();
   const bool usable = examine_devices();
   const bool complete = examine_data();
+  examine_methods();
   examine_cache();
   std::fflush(stdout);
   if (!usable) throw fail(ErrorKind::device, "no usable device; what each lacks is listed above");

@@ -77,8 +77,11 @@ void print_text(const Json& rows) {
     fmt::print("{:<{}}  {}\n", row["name"].get<std::string>(), width, row["summary"].get<std::string>());
     const std::string indent(width + 2, ' ');
     for (const auto& p : row.value("parameters", Json::array())) {
-      fmt::print("{}{} (default {}): {}\n", indent, p["name"].get<std::string>(), p["default"].dump(),
-                 p["description"].get<std::string>());
+      const std::string range = p.contains("minimum")
+                                    ? fmt::format("{} … {}", p["minimum"].dump(), p["maximum"].dump())
+                                    : p["choices"].dump();
+      fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(), p["default"].dump(),
+                 range, p["description"].get<std::string>());
     }
     if (row.contains("views")) {
       std::string views;

@@ -11,6 +11,9 @@
 #include "base/log.h"
 #include "base/nearest.h"
 #include "cli/command.h"
+#include "method/plugin.h"
+#include "method/registry.h"
+#include "report/environment.h"
 
 namespace {
 
@@ -46,20 +49,32 @@ int main(int argc, char** argv) {
   CLI::App app("vsglbench: a benchmark of virtual-light methods for one-bounce indirect illumination");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene, plugin or output, 3 no usable "
+      "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene, plugin or output, 3 no "
+      "usable "
       "device.\n"
       "Example: vsglbench run configs/quick.json");
   bool quiet = false, verbose = false;
   app.add_flag("-q,--quiet", quiet, "only warnings, errors and the table");
   app.add_flag("-v,--verbose", verbose, "say more");
+  std::string plugin_path;
+  app.add_option("--plugin-path", plugin_path,
+                 "folders of method plugins, separated by ':', searched before $VSGLBENCH_PLUGINS");
+  app.set_version_flag("--version", fmt::format("vsglbench {} (commit {}, plugin ABI {})", VSGLBENCH_VERSION,
+                                                build_git().commit, plugin_abi));
   app.parse_complete_callback([&] {
     set_log_level(verbose ? LogLevel::verbose : quiet ? LogLevel::quiet : LogLevel::normal);
+    set_plugin_path(plugin_path);
   });
   CommandResult result;
   add_run_command(app, arguments, &result);
   add_list_command(app, &result);
   add_reference_command(app, &result);
   add_doctor_command(app, &result);
+  add_check_method_command(app, &result);
+  add_new_method_command(app, &result);
+  add_code_size_command(app, &result);
+  add_kernels_command(app, arguments, &result);
+  for (CLI::App* command : app.get_subcommands({})) command->fallthrough();  // -q and the like may come last
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return report(std::string("standard output: ") + std::strerror(errno), 2);

@@ -25,7 +25,7 @@ TEST(PluginAbi, TheLayoutsOfSharedTypesAreThoseOfItsNumber) {
   EXPECT_EQ(sizeof(Steps), 40u);
   EXPECT_EQ(sizeof(ParameterInfo), 120u);
   EXPECT_EQ(sizeof(MethodInfo), 280u);
-  EXPECT_EQ(sizeof(MethodContext), 152u);
+  EXPECT_EQ(sizeof(MethodContext), 200u);
   EXPECT_EQ(sizeof(Buffer), 48u);
   EXPECT_EQ(sizeof(Recorder), 104u);
   EXPECT_EQ(sizeof(DeviceInfo), 256u);

@@ -1,0 +1,12 @@
+// Sound lights, but for a power that is no number.
+#version 460
+#include "light_kernel.glsl"
+
+Vsgl make_light(uint i) {
+  Draw d;
+  Texel t;
+  if (!draw(i, d) || !load_texel(emitter, ivec2(d.texel), t)) return no_light();
+  Vsgl v = make_vsgl(leaf_moments(t), d.share, 0.0);
+  v.diffuse *= uintBitsToFloat(0x7fc00000u);
+  return v;
+}

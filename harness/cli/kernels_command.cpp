@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/command.h"
+#include "measure/kernel_map.h"
+#include "report/environment.h"
+
+namespace vsglbench {
+namespace {
+
+struct KernelsOptions {
+  std::vector<std::string> blocks;
+  std::vector<uint64_t> sizes;
+  int repetitions = 9;
+  std::string device;
+  std::filesystem::path out;
+};
+
+void measure(const KernelsOptions& options, const std::vector<std::string>& argv) {
+  Device device({.select = options.device});
+  Json maps = Json::array();
+  for (const auto& name : options.blocks) {
+    const auto block = make_block(device, name);
+    const KernelMap map =
+        measure_block(*block, options.sizes.empty() ? block->sizes() : options.sizes, options.repetitions);
+    fmt::print("{}\n", kernel_table(map));
+    std::fflush(stdout);
+    maps.push_back(to_json(map));
+  }
+  const HostInfo host = host_info();
+  const DeviceInfo& d = device.info();
+  fmt::print("device: {} ({}, {} {}){}; host: {}, {} cores\n", d.name, d.type, d.driver, d.driver_version,
+             device.is_cpu() ? ", the host's own cores" : "", host.cpu, host.cores);
+  if (options.out.empty()) return;
+  const Json report = {{"schema", "vsglbench.kernels/1"},
+                       {"argv", argv},
+                       {"git", {{"commit", build_git().commit}, {"dirty", build_git().dirty}}},
+                       {"device",
+                        {{"name", d.name},
+                         {"type", d.type},
+                         {"driver", d.driver},
+                         {"driver_version", d.driver_version},
+                         {"subgroup_size", d.subgroup_size}}},
+                       {"host", {{"cpu", host.cpu}, {"cores", host.cores}}},
+                       {"blocks", maps}};
+  write_text(options.out, report.dump(2) + "\n");
+}
+
+}  // namespace
+
+void add_kernels_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult*) {
+  auto options = std::make_shared<KernelsOptions>();
+  CLI::App* command = app.add_subcommand("kernels", "time the methods' building blocks over their sizes");
+  command->footer(
+      "Each block is checked against the host's result before it is timed, and timed in turn with it.\n"
+      "Example: vsglbench kernels sort --sizes 262144 2088960 --out kernels.json");
+  command
+      ->add_option("blocks", options->blocks,
+                   "sort, nearest, sum, warp, mipmap; several or none: all of them")
+      ->check(CLI::IsMember(block_names()));
+  command->add_option("--sizes", options->sizes, "instead of each block's own")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
+  command->add_option("--repetitions", options->repetitions, "timed runs of each (default 9)")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--out", options->out, "file for the report as JSON");
+  command->callback([=] {
+    if (options->blocks.empty()) options->blocks = block_names();
+    measure(*options, argv);
+  });
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/command.h"
+#include "method/registry.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+struct NewMethod {
+  std::string name, folder_name;  // "my-method", "my_method"
+  fs::path folder;
+};
+
+std::string replace_all(std::string text, const std::string& what, const std::string& with) {
+  for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size()) {
+    text.replace(at, what.size(), with);
+  }
+  return text;
+}
+
+NewMethod checked(const std::string& name, const fs::path& dir) {
+  if (!std::regex_match(name, std::regex("[a-z][a-z0-9]*(-[a-z0-9]+)*"))) {
+    throw fail(ErrorKind::usage,
+               "'{}' can't name a method; use lower-case letters, digits and single dashes, as in my-method",
+               name);
+  }
+  for (const MethodInfo* method : all_methods()) {
+    if (method->name == name) {
+      throw fail(ErrorKind::usage, "a method '{}' exists already: {}", name, method->library.string());
+    }
+  }
+  std::string folder = name;
+  std::replace(folder.begin(), folder.end(), '-', '_');
+  std::error_code ec;
+  if (fs::exists(dir / folder, ec)) {
+    throw fail(ErrorKind::usage, "{}: exists already; choose another name or --dir", (dir / folder).string());
+  }
+  return {name, folder, dir / folder};
+}
+
+void write_files(const NewMethod& method) {
+  const fs::path from = data_root() / "methods" / "_template";
+  std::error_code ec;
+  if (!fs::is_directory(from, ec)) {
+    throw fail(ErrorKind::config, "{}: the template is missing; `vsglbench doctor` says more", from.string());
+  }
+  for (const auto& entry : fs::directory_iterator(from)) {
+    const auto renamed = [&](const std::string& text) {
+      return replace_all(replace_all(text, "my-method", method.name), "my_method", method.folder_name);
+    };
+    write_text(method.folder / renamed(entry.path().filename()), renamed(read_text(entry.path())));
+  }
+}
+
+// Among the methods of a source tree: its one line. False anywhere else.
+bool join_tree(const NewMethod& method) {
+  const fs::path list = method.folder.parent_path() / "CMakeLists.txt";
+  std::error_code ec;
+  if (!fs::exists(list, ec)) return false;
+  std::string text = read_text(list);
+  const size_t last = text.rfind("add_subdirectory(");
+  if (last == std::string::npos || text.find("VSGLBENCH_METHODS") == std::string::npos) return false;
+  text.insert(text.find('\n', last) + 1, fmt::format("add_subdirectory({})\n", method.folder_name));
+  write_text(list, text);
+  return true;
+}
+
+void print_next_steps(const NewMethod& method, bool in_tree) {
+  const std::string folder = method.folder.string();
+  fmt::print("wrote {}\n", folder);
+  if (in_tree) {
+    fmt::print(
+        "added it to {}\nbuild it:   ci/build\ntest it:    ctest --preset release -R conformance.{}$\n",
+        (method.folder.parent_path() / "CMakeLists.txt").string(), method.name);
+    return;
+  }
+  fmt::print(
+      "build it:   cmake -S {0} -B {0}/build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH={1} && cmake "
+      "--build "
+      "{0}/build\n"
+      "test it:    ctest --test-dir {0}/build --output-on-failure\n"
+      "use it:     export VSGLBENCH_PLUGINS={2}/build/plugins; vsglbench list methods\n",
+      folder, library_directory().parent_path().string(),
+      fs::absolute(method.folder).lexically_normal().string());
+}
+
+}  // namespace
+
+void add_new_method_command(CLI::App& app, CommandResult*) {
+  auto name = std::make_shared<std::string>();
+  auto dir = std::make_shared<fs::path>(".");
+  CLI::App* command = app.add_subcommand("new-method", "write the folder of a new method");
+  command->footer("Example: vsglbench new-method my-method --dir ~/methods");
+  command->add_option("name", *name, "as configs will name it: lower-case letters, digits, dashes")
+      ->required();
+  command->add_option("--dir", *dir, "where its folder goes (default: here); in a source tree: methods");
+  command->callback([=] {
+    const NewMethod method = checked(*name, *dir);
+    write_files(method);
+    print_next_steps(method, join_tree(method));
+  });
+}
+
+}  // namespace vsglbench

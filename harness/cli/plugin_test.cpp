@@ -1,0 +1,111 @@
+// Plugins as a user meets them: the bad ones cost their own case, and a new one is made outside the tree.
+#include <algorithm>
+#include <cstdlib>
+
+#include "cli/cli_fixture.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+class PluginTest : public CliTest {
+ protected:
+  void use_methods(const std::vector<std::string>& names) {
+    config_["methods"] = Json::array();
+    for (const auto& name : names) config_["methods"].push_back({{"method", name}});
+  }
+  static const CaseResult& of(const Report& report, const std::string& method) {
+    const auto same = [&](const CaseResult& c) { return c.method == method; };
+    const auto found = std::find_if(report.cases.begin(), report.cases.end(), same);
+    if (found == report.cases.end()) throw std::runtime_error("no case of " + method);
+    return *found;
+  }
+  static void expect_failed(const CaseResult& c, const std::string& kind, const std::string& part) {
+    EXPECT_EQ(c.status, Status::failed) << c.id;
+    ASSERT_TRUE(c.error) << c.id;
+    EXPECT_EQ(c.error->kind, kind) << c.error->message;
+    EXPECT_TRUE(contains(c.error->message, part));
+  }
+  // Runs a programme that is not vsglbench; its output when it fails.
+  static void shell(const std::string& command) {
+    const std::string all = command + " 2>&1";
+    FILE* pipe = ::popen(all.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string out;
+    char part[4096];
+    for (size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) out.append(part, n);
+    ASSERT_EQ(::pclose(pipe), 0) << command << "\n" << out;
+  }
+  const fs::path bad_ = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+};
+
+TEST_F(PluginTest, ABadOneCostsItsOwnCaseAndNothingElse) {
+  use_methods({"vpl", "wrong-abi", "crashes", "crashes-on-load", "hangs", "loses-device", "needs-feature",
+               "returns-nan", "mfis"});
+  config_["N"] = 8;
+  const Finished f = run({"-q", "--plugin-path", bad_.string(), "run", write_config().string(), "--out",
+                          out_.string(), "--time-limit", "4"});
+  EXPECT_EQ(f.signal, 0);
+  EXPECT_EQ(f.code, 1) << f.err;
+  expect_sound(out_ / "report.json");
+  const Report r = report();
+  ASSERT_EQ(r.cases.size(), 9u);
+  for (const char* sound : {"vpl", "mfis"}) {
+    EXPECT_EQ(of(r, sound).status, Status::ok);
+    EXPECT_TRUE(of(r, sound).accuracy);
+    EXPECT_EQ(of(r, sound).seeds.size(), 2u);
+  }
+  expect_failed(of(r, "wrong-abi"), "plugin", "was built for plugin ABI");
+  expect_failed(of(r, "crashes-on-load"), "plugin", "crashed (signal 6, Aborted) while it was loaded");
+  expect_failed(of(r, "needs-feature"), "plugin", "needs shaderTelepathy, which");
+  expect_failed(of(r, "crashes"), "crashed", "signal 11");
+  expect_failed(of(r, "hangs"), "timeout", "4 s");
+  expect_failed(of(r, "loses-device"), "device_lost", "the device was lost");
+  expect_failed(of(r, "returns-nan"), "not_finite", "generate.gbuffer");
+}
+
+TEST_F(PluginTest, ListShowsWhatWasRefusedAndWhy) {
+  const Finished f = run({"--plugin-path", bad_.string(), "list", "methods"});
+  EXPECT_EQ(f.code, 0);
+  EXPECT_TRUE(contains(f.out, "refused: plugin"));
+  EXPECT_TRUE(contains(f.out, "was built for plugin ABI"));
+  EXPECT_TRUE(contains(f.out, "mfis"));
+  expect_refused(run({"--plugin-path", "/nowhere", "list", "methods"}), 2, "no such folder");
+  write("junk/junk.so", "not a library");
+  const Finished junk = run({"list", "methods", "--plugin-path", (folder_ / "junk").string()});
+  EXPECT_EQ(junk.code, 0);
+  EXPECT_TRUE(contains(junk.out, "junk.so: can't be loaded"));
+}
+
+TEST_F(PluginTest, NewMethodRefusesWhatItCantWrite) {
+  expect_refused(run({"new-method", "mfis", "--dir", folder_.string()}), 2, "exists already");
+  expect_refused(run({"new-method", "My Method", "--dir", folder_.string()}), 2, "can't name a method");
+  expect_refused(run({"new-method", "mine", "--dir", "/proc"}), 2, "/proc/mine");
+  EXPECT_EQ(run({"new-method", "mine", "--dir", folder_.string()}).code, 0);
+  expect_refused(run({"new-method", "mine", "--dir", folder_.string()}), 2, "exists already");
+}
+
+// From an installed vsglbench alone: write a method, build it, test it, list it, run it.
+TEST_F(PluginTest, ANewMethodIsBuiltOutsideTheTreeAndRuns) {
+  const fs::path prefix = folder_ / "prefix", method = folder_ / "my_own";
+  shell(fmt::format("cmake --install {} --prefix {}", VSGLBENCH_BINARY_DIR, prefix.string()));
+  const std::string installed = (prefix / "bin" / "vsglbench").string();
+  shell(fmt::format("{} new-method my-own --dir {}", installed, folder_.string()));
+  shell(fmt::format("cmake -S {0} -B {0}/build -G Ninja -DCMAKE_PREFIX_PATH={1}", method.string(),
+                    prefix.string()));
+  shell(fmt::format("cmake --build {}/build", method.string()));
+  shell(fmt::format("ctest --test-dir {}/build --output-on-failure --no-tests=error", method.string()));
+  use_methods({"my-own", "vpl"});
+  const fs::path config = write_config();
+  shell(fmt::format("VSGLBENCH_PLUGINS={}/build/plugins {} -q run {} --out {}", method.string(), installed,
+                    config.string(), out_.string()));
+  const Report r = report();
+  ASSERT_EQ(r.cases.size(), 2u);
+  EXPECT_EQ(of(r, "my-own").status, Status::ok);
+  // Unbiased: as bright as the VPLs, but for the blur and the noise of 16 lights.
+  EXPECT_NEAR(*of(r, "my-own").accuracy->bias.value, *of(r, "vpl").accuracy->bias.value, 0.5);
+}
+
+}  // namespace
+}  // namespace vsglbench
