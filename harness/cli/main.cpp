@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   add_new_method_command(app, &result);
   add_code_size_command(app, &result);
   add_kernels_command(app, arguments, &result);
+  add_sg_command(app, &result);
   for (CLI::App* command : app.get_subcommands({})) command->fallthrough();  // -q and the like may come last
   try {
     app.parse(argc, argv);

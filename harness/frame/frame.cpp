@@ -12,7 +12,12 @@ namespace {
 
 std::filesystem::path kernel_path(const char* file) { return data_root() / "harness" / "frame" / file; }
 
-ShaderDefines light_define(LightKind kind) { return {{"LIGHT_VPL", kind == LightKind::vpl ? "1" : "0"}}; }
+// Of the kernels that evaluate lights. VPLs have exact BRDFs, whatever is chosen for VSGLs.
+ShaderDefines light_defines(LightKind kind, const Shading& shading) {
+  ShaderDefines defines = kind == LightKind::vpl ? ShaderDefines{} : shading_defines(shading);
+  defines["LIGHT_VPL"] = kind == LightKind::vpl ? "1" : "0";
+  return defines;
+}
 
 // SplitMix64: one well-mixed word a seed.
 uint64_t mix(uint64_t x) {
@@ -78,7 +83,7 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
              const FrameParameters& parameters, ExactVisibility exact)
     : stage_(stage),
       parameters_(parameters),
-      context_(stage.kernels, stage.scratch, method.folder),
+      context_(stage.kernels, stage.scratch, method.folder, shading_defines(parameters.shading)),
       method_(method.create(context_, method_parameters)),
       exact_(std::move(exact)),
       recorder_(stage.device),
@@ -218,7 +223,8 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
         LightRange range;
       } push{light_, range};
       if (range.first > 0) r.barrier();
-      r.dispatch(stage_.kernels.get(kernel_path("importance.comp"), light_define(method_->kind())),
+      r.dispatch(stage_.kernels.get(kernel_path("importance.comp"),
+                                    light_defines(method_->kind(), parameters_.shading)),
                  {*m[0], *m[1], *m[2], *m[3], *m[4], lights, pdf}, push, groups_for(light_.width, 8),
                  groups_for(light_.height, 8));
     }
@@ -247,7 +253,7 @@ void Frame::shade(Recorder& r) {
   const Buffer& lights = light_buffer(Half::rsm, light_count_);
   const uint64_t pixels = uint64_t(camera_.width) * camera_.height;
   Buffer& indirect = stage_.scratch.get("indirect", pixels * sizeof(glm::vec4));
-  ShaderDefines defines = light_define(method_->kind());
+  ShaderDefines defines = light_defines(method_->kind(), parameters_.shading);
   defines["VISIBILITY"] = std::to_string(static_cast<int>(parameters_.visibility));
   const Kernel& kernel = stage_.kernels.get(kernel_path("shade.comp"), defines);
   const uint32_t words = groups_for(pixels, 32), gx = groups_for(camera_.width, 8),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frame/scene_gpu.h"
+#include "frame/shading.h"
 #include "frame/visibility.h"
 #include "image/image.h"
 #include "method/method.h"
@@ -21,6 +22,7 @@ struct FrameParameters {
   uint32_t importance_lights = 2048;   // on the G-buffer; at most its number of pixels is used
   Visibility visibility = Visibility::exact;
   IsmParameters ism;
+  Shading shading;  // of VSGLs
 };
 
 struct FrameTimes {

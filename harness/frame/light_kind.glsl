@@ -10,7 +10,7 @@ Shader make_shader(Surface s) { return s; }
 vec3 shade_light(Shader s, Vpl light) {
   vec3 to_light = light.position - s.position;
   float distance2 = dot(to_light, to_light);
-  if (!(light.power > 0.0 && distance2 > 0.0)) return vec3(0.0);
+  if (light.power <= 0.0 || distance2 <= 0.0) return vec3(0.0);
   vec3 direction = to_light * inversesqrt(distance2);
   Surface emitter = Surface(light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
                             light.f0, light.ndf);

@@ -40,7 +40,9 @@ const Kernel& MethodContext::shared_kernel(const std::string& file, const Shader
 
 const Kernel& MethodContext::use(const std::filesystem::path& path, const ShaderDefines& defines) {
   used_files_.insert(path);
-  return **used_kernels_.insert(&kernels_.get(path, defines)).first;
+  ShaderDefines all = shading_;
+  all.insert(defines.begin(), defines.end());
+  return **used_kernels_.insert(&kernels_.get(path, all)).first;
 }
 
 Buffer& MethodContext::scratch(const std::string& name, size_t bytes) {

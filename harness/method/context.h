@@ -42,8 +42,10 @@ class ScratchPool {
 
 class MethodContext {
  public:
-  MethodContext(KernelLibrary& kernels, ScratchPool& scratch, std::filesystem::path folder)
-      : kernels_(kernels), scratch_(scratch), folder_(std::move(folder)) {}
+  // `shading`: defines of every kernel, as lights are made to be shaded (frame/shading.h).
+  MethodContext(KernelLibrary& kernels, ScratchPool& scratch, std::filesystem::path folder,
+                ShaderDefines shading = {})
+      : kernels_(kernels), scratch_(scratch), folder_(std::move(folder)), shading_(std::move(shading)) {}
   Device& device() { return kernels_.device(); }
   // A kernel from the method's own folder.
   const Kernel& kernel(const std::string& file, const ShaderDefines& defines = {});
@@ -61,6 +63,7 @@ class MethodContext {
   KernelLibrary& kernels_;
   ScratchPool& scratch_;
   std::filesystem::path folder_;
+  ShaderDefines shading_;
   const Kernel& use(const std::filesystem::path& path, const ShaderDefines& defines);
   std::set<const Kernel*> used_kernels_;
   std::set<std::filesystem::path> used_files_;

@@ -84,6 +84,9 @@ struct MethodInfo {
   std::string summary;            // one line
   std::string source;             // paper, section
   bool takes_light_count = true;  // false: the number of lights follows from the RSM
+  // The parameters with which it makes VPLs: {} always, null never, {{"shading", "exact"}} where that is set.
+  // With all others it makes VSGLs, and a config's shading keys are read.
+  Json makes_vpls;
   std::vector<ParameterInfo> parameters;
   // Optional features that the device must have, as `vsglbench list devices` names them.
   std::vector<std::string> device_features;

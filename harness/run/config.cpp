@@ -113,7 +113,9 @@ void read_reference(const JsonDocument& doc, Config* config) {
 // What only an image is judged with is refused where there is none.
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
-  for (const char* key : {"seeds", "reference", "visibility", "ism"}) {
+  std::vector<std::string> unread = {"seeds", "reference", "visibility", "ism"};
+  for (const ShadingAxis& axis : shading_axes()) unread.push_back(axis.key);
+  for (const auto& key : unread) {
     if (doc.root().contains(key))
       throw doc.error(fmt::format("/{}", key), "is not read where only generation is measured");
   }
@@ -129,7 +131,8 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
               {"methods", root.at("methods")},
               {"frame", {{"width", base.width}, {"height", base.height}}}};
   for (const auto& [key, value] : case_defaults().items()) {
-    if (key != "visibility" || !generation) out[key] = root.value(key, value);
+    const bool shades = key == "visibility" || is_shading_key(key);
+    if (!shades || !generation) out[key] = root.value(key, value);
   }
   if (!generation) {
     out["ism"] = {{"size", base.ism.size}, {"points", base.ism.points}};

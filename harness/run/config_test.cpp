@@ -257,5 +257,36 @@ TEST(FileName, IsOneHarmlessComponent) {
   }
 }
 
+// Shading is of VSGLs: a VPL case comes once, whatever is swept for the others.
+TEST_F(ConfigTest, ShadingIsSweptWhereLightsAreVsgls) {
+  config_["diffuse"] = {"cosine", "tokuyoshi2022"};
+  config_["variance"] = "disk";
+  config_["methods"] = {{{"method", "vpl"}},
+                        {{"method", "mfis"}},
+                        {{"method", "all-texels"}, {"shading", {"exact", "vsgl16"}}}};
+  const Config config = load();
+  ASSERT_EQ(config.cases.size(), 6u);
+  EXPECT_FALSE(config.cases[0].parameters.contains("diffuse"));
+  EXPECT_TRUE(config.cases[0].frame.shading.empty());
+  EXPECT_EQ(config.cases[1].id, "cornell/mfis/N=16,rsm=16,vis=exact,diffuse=cosine");
+  EXPECT_EQ(config.cases[2].parameters.at("diffuse"), "tokuyoshi2022");
+  EXPECT_EQ(config.cases[2].parameters.at("variance"), "disk");
+  EXPECT_EQ(config.cases[2].parameters.at("lobes"), "toksvig");
+  EXPECT_EQ(shading_defines(config.cases[2].frame.shading),
+            (ShaderDefines{{"DIFFUSE_KERNEL", "3"}, {"VARIANCE", "1"}}));
+  EXPECT_EQ(config.cases[3].id, "cornell/all-texels/rsm=16,vis=exact,shading=exact");
+  EXPECT_EQ(config.cases[5].id, "cornell/all-texels/rsm=16,vis=exact,shading=vsgl16,diffuse=tokuyoshi2022");
+}
+
+TEST_F(ConfigTest, ShadingThatIsNotReadOrUnknownIsRefused) {
+  config_["methods"] = {{{"method", "vpl"}, {"diffuse", "cosine"}}};
+  EXPECT_TRUE(contains(problem(), "is not read: vpl makes VPLs"));
+  config_["methods"] = {{{"method", "mfis"}, {"diffuse", "tokuyoshi2023"}}};
+  EXPECT_TRUE(contains(problem(), "no diffuse 'tokuyoshi2023'"));
+  config_["methods"] = {{{"method", "mfis"}}};
+  config_["variance"] = 3;
+  EXPECT_TRUE(contains(problem(), "variance"));
+}
+
 }  // namespace
 }  // namespace vsglbench

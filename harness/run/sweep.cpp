@@ -63,7 +63,7 @@ class Entry {
     std::vector<size_t> index(axes_.size(), 0);
     for (;;) {
       if (out->size() == kMaxCases) throw doc_.error(at_, fmt::format("makes more than {} cases", kMaxCases));
-      out->push_back(make_case(scene, base, index));
+      if (!repeats(index)) out->push_back(make_case(scene, base, index));
       size_t i = axes_.size();
       while (i > 0 && ++index[i - 1] == axes_[i - 1].values.size()) index[--i] = 0;
       if (i == 0) return;
@@ -87,6 +87,32 @@ class Entry {
   // it has is not known.
   bool usable() const { return method_.refused.empty(); }
 
+  // Whether lights made with these parameters are VPLs: always, or by what `makes_vpls` says.
+  bool makes_vpls(const Json& parameters) const {
+    if (method_.makes_vpls.is_null()) return false;
+    const auto& when = method_.makes_vpls.items();
+    return std::all_of(when.begin(), when.end(), [&](const auto& item) {
+      return parameters.contains(item.key()) && parameters.at(item.key()) == item.value();
+    });
+  }
+  bool reads_shading() const {
+    return sees_ && !(method_.makes_vpls.is_object() && method_.makes_vpls.empty());
+  }
+
+  // A VPL case with another choice of shading than the first is the same case.
+  bool repeats(const std::vector<size_t>& index) const {
+    Json own = Json::object();
+    bool first = true;
+    for (size_t i = 0; i < axes_.size(); ++i) {
+      own[axes_[i].key] = axes_[i].values.at(index[i]);
+      first = first && (!is_shading_key(axes_[i].key) || index[i] == 0);
+    }
+    for (const auto& p : method_.parameters) {
+      if (!own.contains(p.name)) own[p.name] = p.default_value;
+    }
+    return !first && makes_vpls(own);
+  }
+
   void check_keys() const {
     std::vector<std::string> known = case_keys();
     known.push_back("method");
@@ -102,13 +128,19 @@ class Entry {
       }
       if (key == "visibility" && !sees_)
         throw doc_.error(at, "is not read where only generation is measured");
+      if (is_shading_key(key) && !reads_shading())
+        throw doc_.error(at, sees_ ? fmt::format("is not read: {} makes VPLs, with exact BRDFs", method_.name)
+                                   : "is not read where only generation is measured");
       if (value.is_array() && value.empty()) throw doc_.error(at, "is an empty list: it would make no case");
     }
   }
 
   void add_axes() {
     for (const auto& key : case_keys()) {
-      const bool read = key == "N" ? method_.takes_light_count : key == "visibility" ? sees_ : true;
+      const bool read = key == "N"            ? method_.takes_light_count
+                        : key == "visibility" ? sees_
+                        : is_shading_key(key) ? reads_shading()
+                                              : true;
       if (read) add_axis(key, true);
     }
     for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
@@ -151,12 +183,18 @@ class Entry {
       const Axis& axis = axes_[i];
       const Json& value = axis.values.at(index[i]);
       if (!set(axis, value, &c.frame)) own[axis.key] = value;
-      if (axis.named) names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(axis.key, value));
+      if (axis.named && !is_shading_key(axis.key))
+        names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(axis.key, value));
     }
     try {
       c.method_parameters = usable() ? resolve_parameters(method_, own) : own;
     } catch (const Error& e) {
       throw doc_.error(at_, e.what());
+    }
+    if (makes_vpls(c.method_parameters)) c.frame.shading.clear();
+    for (const Axis& axis : axes_) {
+      const auto chosen = c.frame.shading.find(axis.key);
+      if (axis.named && chosen != c.frame.shading.end()) names += "," + name_of(axis.key, chosen->second);
     }
     c.id = fmt::format("{}/{}/{}", scene, method_.name, names);
     c.parameters = resolved(c);
@@ -173,6 +211,8 @@ class Entry {
       frame->importance_lights = count(axis, value, 1, kMaxCount);
     } else if (axis.key == "visibility") {
       frame->visibility = visibility(axis, value);
+    } else if (is_shading_key(axis.key)) {
+      frame->shading[axis.key] = shading_choice(axis, value);
     } else {
       return false;
     }
@@ -196,6 +236,15 @@ class Entry {
     }
   }
 
+  std::string shading_choice(const Axis& axis, const Json& value) const {
+    try {
+      check_shading_choice(axis.key, value.is_string() ? value.get<std::string>() : value.dump());
+    } catch (const Error& e) {
+      throw doc_.error(axis.at, e.what());
+    }
+    return value.get<std::string>();
+  }
+
   Json resolved(const Case& c) const {
     Json p = Json::object();
     if (method_.takes_light_count) p["N"] = c.frame.lights;
@@ -206,6 +255,7 @@ class Entry {
     if (sees_) p["visibility"] = visibility_name(c.frame.visibility);
     if (c.frame.visibility == Visibility::ism)
       p["ism"] = {{"size", c.frame.ism.size}, {"points", c.frame.ism.points}};
+    for (const auto& [key, choice] : c.frame.shading) p[key] = choice;
     for (const auto& [key, value] : c.method_parameters.items()) p[key] = value;
     return p;
   }
@@ -221,8 +271,11 @@ class Entry {
 }  // namespace
 
 const Json& case_defaults() {
-  static const Json defaults = {
-      {"N", 256}, {"rsm", 256}, {"importance_lights", 2048}, {"visibility", "exact"}};
+  static const Json defaults = [] {
+    Json all = {{"N", 256}, {"rsm", 256}, {"importance_lights", 2048}, {"visibility", "exact"}};
+    for (const ShadingAxis& axis : shading_axes()) all[axis.key] = axis.choices.front();
+    return all;
+  }();
   return defaults;
 }
 

@@ -58,11 +58,11 @@ Moments leaf_moments(Texel t) {
   Moments m;
   // Diffuse lobe: Lambert as an SG of sharpness 2 [VSGL15s Eq. A.1].
   m.diffuse.power = t.flux * s.diffuse;
-  m.diffuse.q = toksvig_complement(2.0);
+  m.diffuse.q = lobe_complement(2.0);
   m.diffuse.direction = (1.0 - m.diffuse.q) * s.normal;
   // Specular lobe: about the mirror direction, λs = λh/(4|ω'·n|) [VSGL15s App. A].
   m.specular.power = t.flux * specular_reflectance(s);
-  m.specular.q = toksvig_complement(ndf_sharpness(s.ndf) / (4.0 * cosine));
+  m.specular.q = lobe_complement(ndf_sharpness(s.ndf) / (4.0 * cosine));
   m.specular.direction = (1.0 - m.specular.q) * reflect(-s.view, s.normal);
   m.mean = s.position;
   // A texel is a square of area a: its own variance is a/6, so no cluster's is ever below it.

@@ -40,14 +40,14 @@ Lobe merge_lobes(Lobe a[4], vec4 factor) {
     total += w[k];
     m.direction += w[k] * a[k].direction;
   }
-  if (!(total > 0.0)) return empty_lobe();
+  if (total <= 0.0) return empty_lobe();
   m.direction /= total;
   vec3 axis = safe_normalize(m.direction, vec3(0.0));
   for (int k = 0; k < 4; ++k) {
     vec3 d = safe_normalize(a[k].direction, axis) - axis;
     m.q += w[k] / total * (a[k].q + (1.0 - a[k].q) * 0.5 * dot(d, d));
   }
-  m.q = min(m.q, 1.0);
+  m.q = m.q > 1.0 ? 1.0 : m.q;
   return m;
 }
 
@@ -63,7 +63,7 @@ Moments merge(Moments a[4], vec4 factor) {
     w[k] = factor[k] * moments_weight(a[k]);
     total += w[k];
   }
-  if (!(total > 0.0)) return empty_moments();
+  if (total <= 0.0) return empty_moments();
   w /= total;
   // The mean as offsets from the heaviest set, so that far from the origin nothing rounds away.
   int heaviest = 0;
@@ -84,7 +84,7 @@ Moments merge(Moments a[4], vec4 factor) {
 // p = f_a q_a + f_b q_b and e = f_a r_a f_b r_b |ξ_a-ξ_b|²;  so 1-r = (p (2-p) + e) / (1+r): nothing cancels.
 Lobe merge_two(Lobe a, Lobe b) {
   float wa = lobe_weight(a), wb = lobe_weight(b), total = wa + wb;
-  if (!(total > 0.0)) return empty_lobe();
+  if (total <= 0.0) return empty_lobe();
   float fa = wa / total, fb = wb / total;
   vec3 d = safe_normalize(a.direction, vec3(0.0)) - safe_normalize(b.direction, vec3(0.0));
   float p = fa * a.q + fb * b.q;
@@ -96,7 +96,7 @@ Lobe merge_two(Lobe a, Lobe b) {
 
 Moments merge_two(Moments a, Moments b) {
   float wa = moments_weight(a), wb = moments_weight(b), total = wa + wb;
-  if (!(total > 0.0)) return empty_moments();
+  if (total <= 0.0) return empty_moments();
   float fa = wa / total, fb = wb / total;
   Moments m;
   m.diffuse = merge_two(a.diffuse, b.diffuse);
@@ -112,9 +112,9 @@ Moments merge_two(Moments a, Moments b) {
 Vsgl make_vsgl(Moments m, float factor, float level) {
   Vsgl v;
   v.mean = m.mean;
-  v.variance = max(m.variance, 1e-20);
-  v.diffuse_sharpness = toksvig_sharpness(m.diffuse.q);
-  v.specular_sharpness = toksvig_sharpness(m.specular.q);
+  v.variance = m.variance < 1e-20 ? 1e-20 : m.variance;  // not max(), which would hide a NaN
+  v.diffuse_sharpness = lobe_sharpness(m.diffuse.q);
+  v.specular_sharpness = lobe_sharpness(m.specular.q);
   v.specular_axis = safe_normalize(m.specular.direction, vec3(0.0, 1.0, 0.0));
   v.diffuse_axis = safe_normalize(m.diffuse.direction, v.specular_axis);
   v.diffuse = factor * m.diffuse.power / sg_integral(v.diffuse_sharpness);

@@ -33,6 +33,7 @@ VSGLBENCH_METHOD(MethodInfo{
     .summary = "every RSM texel a light: the answer without clustering",
     .source = "-",
     .takes_light_count = false,
+    .makes_vpls = {{"shading", "exact"}},
     .parameters = {{"shading",
                     "exact",
                     "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]",

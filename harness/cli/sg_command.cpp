@@ -1,0 +1,192 @@
+#include <charconv>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/command.h"
+#include "measure/sg_random.h"
+
+namespace vsglbench {
+namespace {
+
+struct SgOptions {
+  std::string kernel, function = "clamped_cosine", device;
+  std::filesystem::path in, out;
+  uint64_t random = 0, seed = 1;
+};
+
+std::string help() {
+  std::string text =
+      "Evaluates one operation of harness/shaders on the GPU, in single precision, and compares it with "
+      "double\n"
+      "precision on the same single-precision arguments. CSV in, with a header line; CSV out: the input's\n"
+      "columns, results, exact results, error. Functions and their columns:\n";
+  for (const SgFunctionInfo& f : sg_functions()) {
+    text += fmt::format("  {:<20} {}\n  {:20} {}; {}\n", f.name, fmt::join(f.columns, ","), "", f.meaning,
+                        error_name(f.error));
+  }
+  return text +
+         "Example: printf 'cosine,sharpness\\n0.5,8\\n' | vsglbench sg --kernel tokuyoshi2024\n"
+         "         vsglbench sg --kernel tokuyoshi2022 --random 1000000 --seed 7";
+}
+
+SgQuestion question(const SgOptions& o) {
+  SgQuestion q{sg_function(o.function)};
+  const bool hemisphere = q.function == SgFunction::hemisphere;
+  q.kernel = diffuse_kernel(!o.kernel.empty() ? o.kernel : hemisphere ? "tokuyoshi2022" : "cosine");
+  using enum exact::DiffuseKernel;
+  if (hemisphere && q.kernel != meder_bruederlin && q.kernel != tokuyoshi2022) {
+    throw fail(ErrorKind::usage,
+               "--kernel {} has no hemispherical integral of its own; use meder-bruederlin or "
+               "tokuyoshi2022",
+               o.kernel);
+  }
+  if (!o.kernel.empty() && !q.has_kernel()) {
+    throw fail(ErrorKind::usage, "--kernel means nothing to --function {}", o.function);
+  }
+  return q;
+}
+
+// "a, b" to {"a", "b"}; spaces around a cell are no part of it.
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> out;
+  for (size_t at = 0; at <= line.size();) {
+    const size_t end = std::min(line.find(',', at), line.size());
+    std::string_view cell = line.substr(at, end - at);
+    while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
+    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
+      cell.remove_suffix(1);
+    out.push_back(cell);
+    at = end + 1;
+  }
+  return out;
+}
+
+// Rows of a CSV text. Throws Error(usage) "NAME:LINE: what".
+std::vector<float> parse_rows(const SgQuestion& q, const std::string& name, std::istream& text) {
+  const std::vector<std::string>& columns = q.info().columns;
+  std::vector<float> rows, row(columns.size());
+  std::string line;
+  size_t number = 0;
+  const auto refuse = [&](const std::string& what) {
+    return fail(ErrorKind::usage, "{}:{}: {}", name, number, what);
+  };
+  for (number = 1; std::getline(text, line); ++number) {
+    const std::vector<std::string_view> read = cells(line);
+    if (number == 1) {
+      if (!std::equal(read.begin(), read.end(), columns.begin(), columns.end())) {
+        throw refuse(fmt::format("the header is not \"{}\", the columns of {}", fmt::join(columns, ","),
+                                 q.info().name));
+      }
+      continue;
+    }
+    if (read.size() == 1 && read[0].empty()) continue;
+    if (read.size() != columns.size()) {
+      throw refuse(fmt::format("{} values, not the {} of \"{}\"", read.size(), columns.size(),
+                               fmt::join(columns, ",")));
+    }
+    for (size_t k = 0; k < read.size(); ++k) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(read[k].data(), read[k].data() + read[k].size(), value);
+      if (error != std::errc() || end != read[k].data() + read[k].size()) {
+        throw refuse(fmt::format("{}: \"{}\" is not a number", columns[k], read[k]));
+      }
+      row[k] = static_cast<float>(value);
+    }
+    if (const std::string what = out_of_domain(q, row); !what.empty()) throw refuse(what);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  if (number == 1) throw refuse(fmt::format("empty; the first line is \"{}\"", fmt::join(columns, ",")));
+  return rows;
+}
+
+std::vector<float> read_rows(const SgOptions& o, const SgQuestion& q) {
+  if (o.in.empty()) return parse_rows(q, "standard input", std::cin);
+  std::ifstream text(o.in);  // which may be a pipe
+  if (!text || std::filesystem::is_directory(o.in)) {
+    throw fail(ErrorKind::usage, "{}: not a file that can be read", o.in.string());
+  }
+  return parse_rows(q, o.in.string(), text);
+}
+
+// cosine,sharpness,value,exact,abs_error; more than one result: name,exact_name of each.
+std::string to_csv(const SgQuestion& q, const std::vector<float>& rows, const SgAnswers& a) {
+  const SgFunctionInfo& info = q.info();
+  fmt::memory_buffer out;
+  const auto to = std::back_inserter(out);
+  fmt::format_to(to, "{}", fmt::join(info.columns, ","));
+  for (const auto& r : info.results) {
+    fmt::format_to(to, ",{},{}", r, r == "value" ? "exact" : "exact_" + r);
+  }
+  fmt::format_to(to, ",{}\n", error_name(info.error));
+  const size_t columns = info.columns.size();
+  for (size_t i = 0; i < a.error.size(); ++i) {
+    const auto row = rows.begin() + static_cast<ptrdiff_t>(i * columns);
+    fmt::format_to(to, "{}", fmt::join(row, row + static_cast<ptrdiff_t>(columns), ","));
+    for (size_t k = i * a.results; k < (i + 1) * a.results; ++k) {
+      fmt::format_to(to, ",{},{}", a.values[k], a.exact[k]);
+    }
+    fmt::format_to(to, ",{:.3g}\n", a.error[i]);
+  }
+  return fmt::to_string(out);
+}
+
+std::vector<float> row_of(const SgQuestion& q, const std::vector<float>& rows, size_t i) {
+  const auto columns = static_cast<ptrdiff_t>(q.info().columns.size());
+  const auto from = rows.begin() + static_cast<ptrdiff_t>(i) * columns;
+  return {from, from + columns};
+}
+
+// The errors' distribution; the first impossible row, made small. Returns the exit code.
+int report_random(SgEvaluator& evaluator, const SgOptions& o, const std::vector<float>& rows,
+                  const SgAnswers& a) {
+  const SgQuestion& q = evaluator.question();
+  const ErrorSpread spread = error_spread(q, a);
+  const std::string kernel = q.has_kernel() ? " " + q.kernel_name() : "";
+  fmt::print("{}{}, {} random rows, seed {}: {} p50 {:.2e}, p99 {:.2e}, max {:.2e}\n", q.info().name, kernel,
+             o.random, o.seed, error_name(q.info().error), spread.p50, spread.p99, spread.max);
+  fmt::print("largest: {}\n", reproducer(q, row_of(q, rows, spread.worst)));
+  if (spread.impossible.empty()) return 0;
+  const size_t first = spread.impossible.front();
+  fmt::print("{} rows are impossible, the first is {}: {}\n", spread.impossible.size(),
+             impossible(q, a, first), reproducer(q, shrink(evaluator, row_of(q, rows, first))));
+  return static_cast<int>(ErrorKind::case_failed);
+}
+
+int evaluate(const SgOptions& o) {
+  const SgQuestion q = question(o);
+  const std::vector<float> rows = o.random > 0 ? random_rows(q, o.random, o.seed) : read_rows(o, q);
+  Device device({.select = o.device});
+  SgEvaluator evaluator(device, q);
+  const SgAnswers answers = evaluator.evaluate(rows);
+  const std::string csv = o.random == 0 || !o.out.empty() ? to_csv(q, rows, answers) : "";
+  if (!o.out.empty()) write_text(o.out, csv);
+  if (o.random > 0) return report_random(evaluator, o, rows, answers);
+  if (o.out.empty()) std::fwrite(csv.data(), 1, csv.size(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_sg_command(CLI::App& app, CommandResult* result) {
+  auto options = std::make_shared<SgOptions>();
+  CLI::App* command =
+      app.add_subcommand("sg", "evaluate a spherical-Gaussian operation on the GPU, with its error");
+  command->footer(help());
+  command->add_option("--kernel", options->kernel,
+                      fmt::format("diffuse kernel: {}", fmt::join(exact::diffuse_kernel_names(), ", ")));
+  command->add_option("--function", options->function, "what to evaluate (default clamped_cosine)");
+  command->add_option("--in", options->in, "CSV file; none: standard input");
+  command->add_option("--out", options->out, "CSV file; none: standard output");
+  command
+      ->add_option("--random", options->random,
+                   "this many random rows over the whole domain, instead of a CSV")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
+  command->add_option("--seed", options->seed, "of the random rows (default 1)");
+  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->callback([=] { result->exit_code = evaluate(*options); });
+}
+
+}  // namespace vsglbench

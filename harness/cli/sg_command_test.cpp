@@ -1,0 +1,92 @@
+// `vsglbench sg` as a user meets it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/file.h"
+#include "cli/process.h"
+
+namespace vsglbench {
+namespace {
+
+class SgCommand : public ::testing::Test {
+ protected:
+  SgCommand() {
+    folder_ = std::filesystem::path(testing::TempDir()) / ("vsglbench-sg-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  ~SgCommand() override { std::filesystem::remove_all(folder_); }
+
+  Finished run(const std::string& csv, std::vector<std::string> more = {}) const {
+    write_text(folder_ / "in.csv", csv);
+    std::vector<std::string> all = {"sg", "--in", (folder_ / "in.csv").string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return finish(start(all));
+  }
+  void expect_refused(const std::string& csv, const std::string& part,
+                      const std::vector<std::string>& more = {}) const {
+    const Finished f = run(csv, more);
+    EXPECT_EQ(f.code, 2) << f.err;
+    ASSERT_EQ(f.errors().size(), 1u) << f.err;
+    EXPECT_NE(f.err.find(part), std::string::npos) << f.err;
+    EXPECT_EQ(f.out, "");
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+TEST_F(SgCommand, WritesWhatItReadWithValueExactAndError) {
+  const Finished f = run("cosine, sharpness\r\n1,8\r\n0.5,0\r\n\r\n", {"--kernel", "tokuyoshi2024"});
+  ASSERT_EQ(f.code, 0) << f.err;
+  EXPECT_TRUE(f.out.starts_with("cosine,sharpness,value,exact,abs_error\n1,8,0.875")) << f.out;
+  EXPECT_NE(f.out.find("\n0.5,0,0.25,0.25"), std::string::npos) << f.out;
+  const Finished to_file =
+      run("sharpness\n2\n", {"--function", "integral", "--out", (folder_ / "out.csv").string()});
+  ASSERT_EQ(to_file.code, 0) << to_file.err;
+  EXPECT_TRUE(read_text(folder_ / "out.csv").starts_with("sharpness,value,exact,rel_error\n2,3.084"));
+  const Finished product = run("cosine,sharpness1,sharpness2\n-1,2,2\n", {"--function", "product"});
+  EXPECT_TRUE(
+      product.out.starts_with("cosine,sharpness1,sharpness2,log_amplitude,exact_log_amplitude,sharpness,"
+                              "exact_sharpness,rel_error\n-1,2,2,-4"))
+      << product.out;
+}
+
+TEST_F(SgCommand, RefusesBadInputWithFileAndLine) {
+  expect_refused("", "in.csv:1: empty; the first line is \"cosine,sharpness\"");
+  expect_refused("cos,sharpness\n", "in.csv:1: the header is not \"cosine,sharpness\"");
+  expect_refused("cosine,sharpness\n0,1\n0.5\n", "in.csv:3: 1 values, not the 2");
+  expect_refused("cosine,sharpness\n0,1,\n", "in.csv:2: 3 values, not the 2");
+  expect_refused("cosine,sharpness\n0,eight\n", "in.csv:2: sharpness: \"eight\" is not a number");
+  expect_refused("cosine,sharpness\n0,1e\n", "in.csv:2: sharpness: \"1e\" is not a number");
+  expect_refused("cosine,sharpness\nnan,1\n", "in.csv:2: cosine is nan, not in [-1, 1]");
+  expect_refused("cosine,sharpness\n1.01,1\n", "in.csv:2: cosine is 1.01");
+  expect_refused("cosine,sharpness\n0,-1\n", "in.csv:2: sharpness is -1");
+  expect_refused("cosine,sharpness\n0,inf\n", "in.csv:2: sharpness is inf");
+  expect_refused("cosine,sharpness\n0,0\n", "in.csv:2: sharpness is 0", {"--kernel", "pettineo-hill"});
+  expect_refused("axis_x,axis_y,axis_z,sharpness,eta_x,eta_y\n1,1,0,1,1,1\n",
+                 "in.csv:2: the axis has length 1.414", {"--function", "asg_product"});
+  expect_refused("", "no diffuse kernel 'tokuyoshi2023'; did you mean", {"--kernel", "tokuyoshi2023"});
+  expect_refused("", "no function 'integal'", {"--function", "integal"});
+  expect_refused("", "has no hemispherical integral", {"--function", "hemisphere", "--kernel", "cosine"});
+  expect_refused("", "means nothing to --function integral",
+                 {"--function", "integral", "--kernel", "cosine"});
+  const Finished none = finish(start({"sg", "--in", (folder_ / "none.csv").string()}));
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("none.csv: not a file that can be read"), std::string::npos) << none.err;
+}
+
+TEST_F(SgCommand, RandomRowsAreRepeatableAndFailuresComeWithAReproducer) {
+  const std::vector<std::string> sound = {"sg",     "--kernel", "tokuyoshi2024", "--random", "2000",
+                                          "--seed", "5"};
+  const Finished a = finish(start(sound)), b = finish(start(sound));
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.out, b.out);
+  EXPECT_NE(a.out.find("p99"), std::string::npos);
+  const Finished bad = finish(start({"sg", "--kernel", "pettineo-hill", "--random", "500"}));
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_NE(bad.out.find("negative: printf 'cosine,sharpness\\n"), std::string::npos) << bad.out;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,50 @@
+#include "frame/shading.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/nearest.h"
+
+namespace vsglbench {
+
+const std::vector<ShadingAxis>& shading_axes() {
+  static const std::vector<ShadingAxis> axes = {
+      {"diffuse",
+       "DIFFUSE_KERNEL",
+       {"cosine", "pettineo-hill", "meder-bruederlin", "tokuyoshi2022", "tokuyoshi2024"},
+       "the integral of an SG and the clamped cosine [MFIS16 App. C.2; SGL22]"},
+      {"lobes",
+       "LOBE_CONVERSION",
+       {"toksvig", "banerjee"},
+       "from a mean direction's length to a lobe's sharpness [MFIS16 App. B.1; Banerjee 2005]"},
+      {"variance",
+       "VARIANCE",
+       {"3d", "disk"},
+       "a light's variance: the paper's of three dimensions [MFIS16 App. B.2], or half of it, a disk's"},
+  };
+  return axes;
+}
+
+bool is_shading_key(const std::string& key) {
+  return std::ranges::any_of(shading_axes(), [&](const ShadingAxis& axis) { return axis.key == key; });
+}
+
+void check_shading_choice(const std::string& key, const std::string& choice) {
+  for (const ShadingAxis& axis : shading_axes()) {
+    if (axis.key != key || std::ranges::count(axis.choices, choice) > 0) continue;
+    throw fail(ErrorKind::config, "no {} '{}'{}", key, choice, suggestion(choice, axis.choices));
+  }
+}
+
+ShaderDefines shading_defines(const Shading& shading) {
+  ShaderDefines defines;
+  for (const ShadingAxis& axis : shading_axes()) {
+    const auto chosen = shading.find(axis.key);
+    if (chosen == shading.end() || chosen->second == axis.choices.front()) continue;
+    const auto value = std::ranges::find(axis.choices, chosen->second) - axis.choices.begin();
+    defines[axis.define] = std::to_string(value);
+  }
+  return defines;
+}
+
+}  // namespace vsglbench
