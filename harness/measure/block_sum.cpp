@@ -1,4 +1,5 @@
-// One VSGL from each of 2048 clusters of sorted texels: of one size, and one that holds half of the texels.
+// One VSGL from each of 2048 clusters of sorted texels: of one size, and with one that holds half or nine
+// tenths of the texels.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ class SumBlock : public Block {
   explicit SumBlock(Device& device) : on_(device) {}
   std::string name() const override { return "sum"; }
   std::string counted() const override { return "texels"; }
-  std::vector<std::string> inputs() const override { return {"even", "one holds half"}; }
+  std::vector<std::string> inputs() const override { return {"even", "one holds half", "one holds 90 %"}; }
   std::vector<uint64_t> sizes() const override { return {1 << 16, 262144, 1 << 20, 2088960}; }
 
   std::vector<Contestant> prepare(const std::string& input, uint64_t size) override {
@@ -26,7 +27,7 @@ class SumBlock : public Block {
       half_ = smooth_half(width, height);
       on_device_ = std::make_unique<DeviceHalf>(on_.device, half_);
     }
-    make_clusters(input == "even", static_cast<uint32_t>(size));
+    make_clusters(input == "even" ? 0 : input == "one holds half" ? 0.5 : 0.9, static_cast<uint32_t>(size));
     lights_ = Buffer(on_.device, "lights", kClusters * sizeof(gpu::Vsgl));
     std::vector<Contestant> all;
     all.push_back({"host, 2 threads", false, [this] { return sum_on_host(); }, [] { return ""; }});
@@ -39,17 +40,18 @@ class SumBlock : public Block {
   }
 
  private:
-  // Sorted by cluster; a cluster's texels are neighbours in a row, as those of an image mostly are.
-  void make_clusters(bool even, uint32_t size) {
+  // Sorted by cluster; a cluster's texels are neighbours in a row, as those of an image mostly are. The first
+  // cluster holds `share` of them, the others the same each.
+  void make_clusters(double share, uint32_t size) {
     ids_.resize(size);
     std::vector<uint32_t> texels(size);
-    const uint64_t half = size / 2;
+    const auto large = static_cast<uint64_t>(share * size);
     for (uint32_t i = 0; i < size; ++i) {
       texels[i] = i;
-      if (even) {
+      if (share == 0) {
         ids_[i] = static_cast<uint32_t>(uint64_t{i} * kClusters / size);
       } else {
-        ids_[i] = i < half ? 0 : static_cast<uint32_t>(1 + (i - half) * (kClusters - 1) / (size - half));
+        ids_[i] = i < large ? 0 : static_cast<uint32_t>(1 + (i - large) * (kClusters - 1) / (size - large));
       }
     }
     id_buffer_ = Buffer(on_.device, "ids", size * 4);
