@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "base/error.h"
 #include "cli/command.h"
@@ -13,7 +14,16 @@ namespace {
 
 constexpr size_t kMostLines = 5;  // of one check's failures; --json has all
 
+bool is_method(const std::string& name) {
+  return std::ranges::any_of(all_methods(), [&](const MethodInfo* m) { return m->name == name; });
+}
+
 MethodInfo find(const std::string& name_or_path) {
+  std::error_code ec;
+  if (std::filesystem::is_directory(name_or_path, ec) && !is_method(name_or_path)) {
+    throw fail(ErrorKind::usage, "{}: is a folder; give the plugin that was built from it: {}", name_or_path,
+               (std::filesystem::path(name_or_path) / "build" / "plugins" / "NAME.so").string());
+  }
   const bool path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".so");
   return path ? inspect_plugin(name_or_path) : find_method(name_or_path);
 }
@@ -67,6 +77,15 @@ void add_check_method_command(CLI::App& app, CommandResult* result) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("check-method", "hold a method to what every method must keep to");
   command->footer(
+      "Checks, each on empty, black, tiny, odd and large halves where it matters:\n"
+      "  repeatable  one seed gives the same lights to the bit, another seed others\n"
+      "  lights      all written, finite, unit axes, no power from nothing, at each parameter's ends too\n"
+      "  flux        their power is the texels' within the method's flux_bound, at the parameters' ends too\n"
+      "  passes      every dispatch is in a named, timed pass, the same ones each frame\n"
+      "  bounds      nothing is written past the lights or a scratch buffer\n"
+      "  memory      no frame takes more than the first, and all is given back\n"
+      "  validation  the Vulkan validation layers are silent, synchronisation included\n"
+      "  image       whole frames of a scene: repeatable, finite, black without light\n"
       "Exit codes: 0 all checks ok, 1 one failed, 2 no such method or plugin refused, 3 no usable device.\n"
       "Examples: vsglbench check-method mfis\n"
       "          vsglbench check-method build/plugins/my-method.so --only lights flux");

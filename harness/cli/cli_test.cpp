@@ -70,6 +70,7 @@ TEST_F(CliTest, KernelsTimesABlockAndWritesItDown) {
   EXPECT_FALSE(report.at("blocks").at(0).at("times").empty());
   expect_refused(run({"kernels", "bubble"}), 2, "bubble");
   expect_refused(run({"kernels", "sort", "--sizes", "0"}), 2, "sizes");
+  expect_refused(run({"kernels", "sort", "-q", "--out", folder_.string()}), 2, "is a folder");
 }
 
 TEST_F(CliTest, CodeSizeHasARowForEachMethod) {

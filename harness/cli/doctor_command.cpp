@@ -75,7 +75,11 @@ bool examine_data() {
 }
 
 void examine_methods() {
-  for (const auto& folder : plugin_folders()) fmt::print("plugins     {}\n", folder.string());
+  for (const auto& folder : plugin_folders()) {
+    std::error_code ec;
+    const bool present = std::filesystem::is_directory(folder, ec);
+    fmt::print("plugins     {}{}\n", folder.string(), present ? "" : " (absent)");
+  }
   for (const MethodInfo* method : all_methods()) {
     fmt::print("  {:<8}  {}\n", method->refused.empty() ? "method" : "refused",
                method->refused.empty() ? method->name : method->refused);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
@@ -17,13 +19,32 @@ struct KernelsOptions {
   std::filesystem::path out;
 };
 
+// Throws Error(output) where the report can't be written: better now than after the timing.
+void check_writable(const std::filesystem::path& file) {
+  std::error_code ec;
+  if (std::filesystem::is_directory(file, ec)) {
+    throw fail(ErrorKind::output, "--out {}: is a folder; give a file", file.string());
+  }
+  ensure_writable_directory(std::filesystem::absolute(file).parent_path());
+}
+
+// Without those that came before.
+std::vector<uint64_t> distinct(const std::vector<uint64_t>& sizes) {
+  std::vector<uint64_t> out;
+  for (const uint64_t size : sizes) {
+    if (std::ranges::count(out, size) == 0) out.push_back(size);
+  }
+  return out;
+}
+
 void measure(const KernelsOptions& options, const std::vector<std::string>& argv) {
+  if (!options.out.empty()) check_writable(options.out);
   Device device({.select = options.device});
+  const std::vector<uint64_t> sizes = distinct(options.sizes);
   Json maps = Json::array();
   for (const auto& name : options.blocks) {
     const auto block = make_block(device, name);
-    const KernelMap map =
-        measure_block(*block, options.sizes.empty() ? block->sizes() : options.sizes, options.repetitions);
+    const KernelMap map = measure_block(*block, sizes.empty() ? block->sizes() : sizes, options.repetitions);
     fmt::print("{}\n", kernel_table(map));
     std::fflush(stdout);
     maps.push_back(to_json(map));
@@ -53,7 +74,8 @@ void add_kernels_command(CLI::App& app, const std::vector<std::string>& argv, Co
   auto options = std::make_shared<KernelsOptions>();
   CLI::App* command = app.add_subcommand("kernels", "time the methods' building blocks over their sizes");
   command->footer(
-      "Each block is checked against the host's result before it is timed, and timed in turn with it.\n"
+      "Each block is checked against the host's result before it is timed, and timed in turn with it. A size "
+      "that\nthe device has no room for is reported as skipped.\n"
       "Example: vsglbench kernels sort --sizes 262144 2088960 --out kernels.json");
   command
       ->add_option("blocks", options->blocks,

@@ -1,8 +1,10 @@
 // vsglbench: what each method of making virtual lights costs, and what it is worth.
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -40,6 +42,17 @@ int report_usage(const CLI::App& app, const CLI::ParseError& e, const std::vecto
   return report(fmt::format("{}; see {}", what, help), 2);
 }
 
+// NaN passes every check of a range.
+void refuse_no_numbers(CLI::App* command) {
+  for (CLI::Option* option : command->get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) continue;
+    const auto refuse = [](std::string& text) {
+      return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is no finite number";
+    };
+    option->check(CLI::Validator(refuse, "", ""));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,7 +88,10 @@ int main(int argc, char** argv) {
   add_code_size_command(app, &result);
   add_kernels_command(app, arguments, &result);
   add_sg_command(app, &result);
-  for (CLI::App* command : app.get_subcommands({})) command->fallthrough();  // -q and the like may come last
+  for (CLI::App* command : app.get_subcommands({})) {
+    command->fallthrough();  // -q and the like may come last
+    refuse_no_numbers(command);
+  }
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return report(std::string("standard output: ") + std::strerror(errno), 2);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <regex>
 
@@ -26,7 +27,24 @@ std::string replace_all(std::string text, const std::string& what, const std::st
   return text;
 }
 
+// A word of a shell's command line.
+std::string quoted(const std::string& word) {
+  static const std::regex plain("[A-Za-z0-9_./:=@%+,-]+");
+  return std::regex_match(word, plain) ? word : "'" + replace_all(word, "'", "'\\''") + "'";
+}
+
+// Neither CMake nor a printed command can hold such a path.
+void refuse_odd_folder(const fs::path& dir) {
+  const auto odd = [](unsigned char c) { return c < 32 || c == 127 || std::strchr("\"\\;$", c) != nullptr; };
+  if (std::ranges::any_of(fs::absolute(dir).string(), odd)) {
+    throw fail(ErrorKind::usage,
+               "--dir: its path holds a quotation mark, backslash, semicolon, dollar or control character, "
+               "which CMake can't take; choose another folder");
+  }
+}
+
 NewMethod checked(const std::string& name, const fs::path& dir) {
+  refuse_odd_folder(dir);
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9]*(-[a-z0-9]+)*"))) {
     throw fail(ErrorKind::usage,
                "'{}' can't name a method; use lower-case letters, digits and single dashes, as in my-method",
@@ -74,7 +92,8 @@ bool join_tree(const NewMethod& method) {
 }
 
 void print_next_steps(const NewMethod& method, bool in_tree) {
-  const std::string folder = method.folder.string();
+  const std::string folder = method.folder.string(), build = (method.folder / "build").string();
+  const std::string absolute = fs::absolute(method.folder).lexically_normal().string();
   fmt::print("wrote {}\n", folder);
   if (in_tree) {
     fmt::print(
@@ -83,13 +102,12 @@ void print_next_steps(const NewMethod& method, bool in_tree) {
     return;
   }
   fmt::print(
-      "build it:   cmake -S {0} -B {0}/build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH={1} && cmake "
-      "--build "
-      "{0}/build\n"
-      "test it:    ctest --test-dir {0}/build --output-on-failure\n"
-      "use it:     export VSGLBENCH_PLUGINS={2}/build/plugins; vsglbench list methods\n",
-      folder, library_directory().parent_path().string(),
-      fs::absolute(method.folder).lexically_normal().string());
+      "build it:   cmake -S {} -B {} -DCMAKE_BUILD_TYPE=Release {} && cmake --build {}\n"
+      "test it:    ctest --test-dir {} --output-on-failure\n"
+      "use it:     export {}; vsglbench list methods\n",
+      quoted(folder), quoted(build),
+      quoted("-DCMAKE_PREFIX_PATH=" + library_directory().parent_path().string()), quoted(build),
+      quoted(build), quoted("VSGLBENCH_PLUGINS=" + absolute + "/build/plugins"));
 }
 
 }  // namespace

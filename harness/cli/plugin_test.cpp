@@ -82,6 +82,9 @@ TEST_F(PluginTest, NewMethodRefusesWhatItCantWrite) {
   expect_refused(run({"new-method", "mfis", "--dir", folder_.string()}), 2, "exists already");
   expect_refused(run({"new-method", "My Method", "--dir", folder_.string()}), 2, "can't name a method");
   expect_refused(run({"new-method", "mine", "--dir", "/proc"}), 2, "/proc/mine");
+  expect_refused(run({"new-method", "mine", "--dir", "a\"b"}), 2, "quotation mark");
+  expect_refused(run({"new-method", "mine", "--dir", "a\nb"}), 2, "control character");
+  expect_refused(run({"check-method", folder_.string()}), 2, "is a folder");
   EXPECT_EQ(run({"new-method", "mine", "--dir", folder_.string()}).code, 0);
   expect_refused(run({"new-method", "mine", "--dir", folder_.string()}), 2, "exists already");
 }

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 
+#include "base/child.h"
 #include "base/error.h"
 #include "cli/command.h"
 #include "report/table.h"
@@ -18,6 +20,7 @@ void on_interrupt(int signal) {
   static const char message[] =
       "\nvsglbench: interrupted; the same command goes on after the last scene that was finished\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
+  kill_children();  // with what a method has started there
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -26,10 +29,10 @@ void print_outcome(const RunOutcome& outcome) {
   fmt::print("{}", terminal_table(outcome.report));
   const WallTime& w = outcome.report.wall;
   fmt::print(
-      "{}: {:.1f} s, of which frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
-      "compilation {:.1f}; without the last three {:.2f} x the device time\n",
+      "{}\n{:.1f} s in all: frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
+      "compilation {:.1f}, the rest {:.0f} % of the device's time\n",
       outcome.report_path.string(), w.total_s, w.device_s, w.references_s, w.visibility_s, w.compilation_s,
-      w.overhead_ratio);
+      100 * std::max(0.0, w.overhead_ratio - 1));
 }
 
 void run(const RunOptions& options, CommandResult* result) {

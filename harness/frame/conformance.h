@@ -8,7 +8,7 @@
 //               light of power where there is no surface, no flux or no PDF; also with each parameter at each
 //               of its choices, its minimum and its maximum
 //   flux        Σ light power within MethodInfo::flux_bound of Σ texel power, in the mean over 16 shifts,
-//               with each parameter at each of its choices
+//               also with each parameter at each of its choices, its minimum and its maximum
 //   passes      each pass is one of Steps (generate.<half>.<step>) and has a time; two frames have the same
 //               ones; nothing is dispatched outside a pass
 //   bounds      nothing is written past the lights asked for, nor past the end of a scratch buffer
@@ -16,7 +16,9 @@
 //   validation  the Vulkan validation layers are silent, synchronisation checks included (those of 1.3.239
 //   see a read
 //               after an unfenced write, but not two unfenced writes of dispatches to one buffer)
-//   image       a frame of a scene: same seed, same image to the bit; finite; black where the light is
+//   image       a frame of a scene: same seed, same image to the bit; image and lights finite; black where
+//   the
+//               light has no flux or sees no surface
 //
 // Each check runs in a process of its own: a method that crashes, hangs or loses the device fails that check,
 // and the others go on. The G-buffer half is asked only of methods that use importance, as in a frame.

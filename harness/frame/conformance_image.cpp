@@ -59,13 +59,25 @@ std::string bad_pixel(const Image& image, bool black) {
                      at->y, at->z, black ? "0" : "finite radiance ≥ 0");
 }
 
+// What is wrong with the image of a frame and the lights that made it; empty: nothing. A light that is not
+// finite may leave no trace in the image.
+std::string fault_of(Frame& frame, const Image& image, bool black) {
+  if (const auto bad = bad_pixel(image, black); !bad.empty()) {
+    const std::string pass = frame.first_bad_pass();
+    return bad + (pass.empty() ? "" : "; first bad pass: " + pass);
+  }
+  const LightHealth lights = frame.light_health();
+  if (lights.nan + lights.inf == 0) return "";
+  return fmt::format("{} lights hold a NaN, {} an Inf, the first is light {} of {}; expected finite lights",
+                     lights.nan, lights.inf, lights.first_bad, lights.first_bad_pass);
+}
+
 void check_repeated(Inspection& inspection, const Scene& scene) {
   inspection.on("scene cornell, 64×36, RSM 40×40, N = 64", [&] {
     SceneFrames frames(inspection, scene);
     const auto frame = frames.make();
     const Image first = render(*frame, 3);
-    if (const auto bad = bad_pixel(first, false); !bad.empty())
-      return inspection.found(bad + "; first bad pass: " + frame->first_bad_pass());
+    if (const auto fault = fault_of(*frame, first, false); !fault.empty()) return inspection.found(fault);
     render(*frame, 4);
     const auto compare = [&](const char* what, const Image& again) {
       const auto differs = difference(first, again);
@@ -81,8 +93,9 @@ void check_repeated(Inspection& inspection, const Scene& scene) {
 void check_black(Inspection& inspection, const Scene& scene, const char* what) {
   inspection.on(fmt::format("scene cornell, 64×36, RSM 40×40, N = 64, {}", what), [&] {
     SceneFrames frames(inspection, scene);
-    const auto bad = bad_pixel(render(*frames.make(), 3), true);
-    if (!bad.empty()) inspection.found(bad);
+    const auto frame = frames.make();
+    const auto fault = fault_of(*frame, render(*frame, 3), true);
+    if (!fault.empty()) inspection.found(fault);
   });
 }
 

@@ -20,11 +20,17 @@ void Inspection::on(const std::string& input, const std::function<void()>& body,
     if (large && e.kind() == ErrorKind::case_failed) {
       parent_.send({{"left_out", fmt::format("{}: {}", input_, e.what())}});
     } else {
-      found(fmt::format("threw \"{}\"; expected lights", e.what()));
+      found_thrown(e.what());
     }
   } catch (const std::exception& e) {
-    found(fmt::format("threw \"{}\"; expected lights", e.what()));
+    found_thrown(e.what());
   }
+}
+
+void Inspection::found_thrown(const std::string& what) {
+  if (what == thrown_) return found("threw the same");
+  thrown_ = what;
+  found(fmt::format("threw \"{}\"; expected lights", what));
 }
 
 void Inspection::found(const std::string& fault) {

@@ -34,12 +34,14 @@ class Inspection {
   void measured(const std::string& figure);
 
  private:
+  void found_thrown(const std::string& what);
   Device& device_;
   const MethodInfo& info_;
   bool large_;
   const ToParent& parent_;
   KernelLibrary kernels_;
   std::string input_;
+  std::string thrown_;  // last
 };
 
 struct ConformanceCheck {

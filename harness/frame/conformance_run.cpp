@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/nearest.h"
 
 namespace vsglbench {
 namespace {
@@ -69,6 +70,21 @@ class DispatchWatch {
   unsigned before_ = 0, inside_ = 0;
 };
 
+// The method; where it reads a parameter that it does not declare, the error says which.
+std::unique_ptr<Method> create(const MethodInfo& info, MethodContext& context, const Json& parameters) {
+  try {
+    return info.create(context, parameters);
+  } catch (const Json::out_of_range& e) {
+    std::vector<std::string> declared;
+    for (const ParameterInfo& p : info.parameters) declared.push_back(p.name);
+    const std::string what = e.what();  // "[...] key 'blurr' not found"
+    const size_t open = what.find('\''), close = what.rfind('\'');
+    const std::string key = open < close ? what.substr(open + 1, close - open - 1) : "";
+    throw fail(ErrorKind::plugin, "`create` reads parameter '{}', which MethodInfo::parameters lacks{}", key,
+               suggestion(key, declared));
+  }
+}
+
 }  // namespace
 
 MethodRun::MethodRun(KernelLibrary& kernels, const MethodInfo& info, const Json& parameters)
@@ -76,7 +92,7 @@ MethodRun::MethodRun(KernelLibrary& kernels, const MethodInfo& info, const Json&
       scratch_(kernels.device()),
       recorder_(kernels.device()),
       context_(kernels, scratch_, info.folder),
-      method_(info.create(context_, resolve_parameters(info, parameters))) {
+      method_(create(info, context_, resolve_parameters(info, parameters))) {
   if (!method_) throw std::logic_error("`create` made no method");
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "frame/checked_method.h"
 #include "method/filtered_sampling.h"
 
 namespace vsglbench {
@@ -84,7 +85,7 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
     : stage_(stage),
       parameters_(parameters),
       context_(stage.kernels, stage.scratch, method.folder, shading_defines(parameters.shading)),
-      method_(method.create(context_, method_parameters)),
+      method_(make_method(method, context_, method_parameters)),
       exact_(std::move(exact)),
       recorder_(stage.device),
       gbuffer_(&stage.targets(Half::gbuffer, parameters.width, parameters.height)),
@@ -95,8 +96,9 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
     throw fail(ErrorKind::case_failed, "N = {} lights can't be drawn from an RSM of {} texels; use 1 … {}",
                parameters.lights, texels, texels);
   }
-  light_count_ = method_->light_count(parameters.lights, texels);
-  importance_count_ = method_->light_count(
+  light_count_ = light_count_of(*method_, method.name, parameters.lights, texels);
+  importance_count_ = light_count_of(
+      *method_, method.name,
       static_cast<uint32_t>(std::clamp<uint64_t>(parameters.importance_lights, 1, pixels)), pixels);
   const View camera = camera_view(stage.scene.camera, parameters.width, parameters.height);
   camera_ = make_emitter(camera, parameters.width, parameters.height, glm::vec3(1), true);

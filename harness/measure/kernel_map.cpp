@@ -14,12 +14,34 @@
 namespace vsglbench {
 namespace {
 
-// A result is looked at before it is timed; the first run also compiles.
-void check(const Contestant& c, const std::string& where) {
-  c.run_ms();
-  if (const std::string mistake = c.mistake(); !mistake.empty()) {
-    throw fail(ErrorKind::case_failed, "{}: {} computed it wrong: {}", where, c.name, mistake);
+// Makes the contestants and runs each once; the first run also compiles. What the device has no room for;
+// empty: nothing. A result is looked at before it is timed: a wrong one throws.
+std::string try_out(Block& block, const std::string& input, uint64_t size, const std::string& where,
+                    std::vector<Contestant>* contestants) {
+  std::string wrong;
+  try {
+    *contestants = block.prepare(input, size);
+    for (const Contestant& c : *contestants) {
+      c.run_ms();
+      const std::string mistake = c.mistake();
+      if (!mistake.empty() && wrong.empty())
+        wrong = fmt::format("{}: {} computed it wrong: {}", where, c.name, mistake);
+    }
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::case_failed) throw;
+    return e.what();
   }
+  if (!wrong.empty()) throw Error(ErrorKind::case_failed, wrong);
+  return "";
+}
+
+// Every contestant `repetitions` times, in turn.
+std::vector<std::vector<double>> time_in_turn(const std::vector<Contestant>& contestants, int repetitions) {
+  std::vector<std::vector<double>> ms(contestants.size());
+  for (int i = 0; i < repetitions; ++i) {
+    for (size_t k = 0; k < contestants.size(); ++k) ms[k].push_back(contestants[k].run_ms());
+  }
+  return ms;
 }
 
 void add_growth(const std::string& input, const std::vector<Contestant>& contestants, KernelMap* map) {
@@ -47,6 +69,11 @@ double million_a_second(const BlockTime& t) {
   return t.ms.median > 0 ? static_cast<double>(t.size) / t.ms.median * 1e-3 : 0;
 }
 
+// "-" where the host's time would be shown as 0.000 ms: no ratio of it is worth showing.
+std::string ratio_text(double ms, double host_ms) {
+  return host_ms >= 0.0005 ? fmt::format("{:.2f}", ms / host_ms) : "-";
+}
+
 }  // namespace
 
 std::vector<std::string> block_names() { return {"sort", "nearest", "sum", "warp", "mipmap"}; }
@@ -61,18 +88,17 @@ std::unique_ptr<Block> make_block(Device& device, const std::string& name) {
 }
 
 KernelMap measure_block(Block& block, const std::vector<uint64_t>& sizes, int repetitions) {
-  KernelMap map{block.name(), block.counted(), {}, {}};
+  KernelMap map{block.name(), block.counted(), {}, {}, {}};
   for (const auto& input : block.inputs()) {
     std::vector<Contestant> contestants;
     for (const uint64_t size : sizes) {
       const std::string where = fmt::format("{}, {}, {} {}", map.block, input, size, map.counted);
       log_info("{}", where);
-      contestants = block.prepare(input, size);
-      for (const Contestant& c : contestants) check(c, where);
-      std::vector<std::vector<double>> ms(contestants.size());
-      for (int i = 0; i < repetitions; ++i) {
-        for (size_t k = 0; k < contestants.size(); ++k) ms[k].push_back(contestants[k].run_ms());
+      if (const auto why = try_out(block, input, size, where, &contestants); !why.empty()) {
+        map.skipped.push_back(fmt::format("{}, {} {}: {}", input, size, map.counted, why));
+        continue;
       }
+      const auto ms = time_in_turn(contestants, repetitions);
       for (size_t k = 0; k < contestants.size(); ++k) {
         map.times.push_back({input, contestants[k].name, contestants[k].on_device, size, summarize(ms[k])});
       }
@@ -100,7 +126,7 @@ std::string kernel_table(const KernelMap& map) {
                                 map.counted, "ms", "95 % interval", "million/s", "time/host's time");
   for (const BlockTime& t : map.times) {
     const BlockTime* host = counterpart(map, t);
-    const std::string ratio = t.on_device && host ? fmt::format("{:.2f}", t.ms.median / host->ms.median) : "";
+    const std::string ratio = t.on_device && host ? ratio_text(t.ms.median, host->ms.median) : "";
     out += fmt::format("{:<22} {:<22} {:>9} {:>10.3f} {:>21} {:>12.1f} {:>16}\n", t.input, t.contestant,
                        t.size, t.ms.median, fmt::format("{:.3f} … {:.3f}", t.ms.ci95.lo, t.ms.ci95.hi),
                        million_a_second(t), ratio);
@@ -108,6 +134,7 @@ std::string kernel_table(const KernelMap& map) {
   for (const Growth& g : map.growth) {
     out += fmt::format("{:<22} {:<22} grows as size^{:.2f}\n", g.input, g.contestant, g.exponent);
   }
+  for (const auto& skipped : map.skipped) out += "skipped: " + skipped + "\n";
   return out;
 }
 
@@ -126,7 +153,11 @@ Json to_json(const KernelMap& map) {
   for (const Growth& g : map.growth) {
     growth.push_back({{"input", g.input}, {"contestant", g.contestant}, {"exponent", g.exponent}});
   }
-  return {{"block", map.block}, {"counted", map.counted}, {"times", times}, {"growth", growth}};
+  return {{"block", map.block},
+          {"counted", map.counted},
+          {"times", times},
+          {"growth", growth},
+          {"skipped", map.skipped}};
 }
 
 double device_ms(Recorder& recorder, const std::function<void()>& record) {

@@ -52,10 +52,13 @@ struct KernelMap {
   std::string block, counted;
   std::vector<BlockTime> times;
   std::vector<Growth> growth;  // none of a contestant with fewer than two sizes
+  std::vector<std::string>
+      skipped;  // "<input>, <size> <counted>: <why>", where the device has no room for it
 };
 
-// Every input × size: each contestant once, checked; then `repetitions` rounds of all of them in turn. Throws
-// Error(case_failed) for a wrong result, naming input, size and contestant.
+// Every input × size: each contestant once, checked; then `repetitions` rounds of all of them in turn. An
+// input that the device has no room for is skipped. Throws Error(case_failed) for a wrong result, naming
+// input, size and contestant.
 KernelMap measure_block(Block& block, const std::vector<uint64_t>& sizes, int repetitions);
 
 // The exponent of a power law through (size, ms) points; sizes differ.

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/json.h"
 #include "gpu/recorder.h"
 #include "method/context.h"
@@ -44,18 +46,35 @@ struct LightTarget {
   glm::uvec2 shift{0};  // Cranley-Patterson shift of this seed, 32-bit fixed point
 };
 
-// Names the passes of one half `generate.<half>.<step>`.
+// Names the passes of one half `generate.<half>.<step>`. A step of a name that no report takes, and one
+// within another, throw Error(plugin).
 class Steps {
  public:
   Steps(Recorder& recorder, Half half)
       : recorder_(recorder), prefix_(std::string("generate.") + half_name(half)) {}
   template <class Record>
   void pass(const std::string& step, const Record& record) {
-    recorder_.pass(prefix_ + "." + step, record);
+    check(step);
+    // Within the pass there is no prefix to name another with.
+    const Within within{prefix_, std::exchange(prefix_, std::string())};
+    recorder_.pass(within.kept + "." + step, record);
   }
   Recorder& recorder() { return recorder_; }
 
  private:
+  struct Within {
+    std::string& prefix;
+    std::string kept;
+    ~Within() { prefix = kept; }
+  };
+  void check(const std::string& step) const {
+    if (prefix_.empty()) throw fail(ErrorKind::plugin, "pass '{}': passes don't nest", step.substr(0, 64));
+    static constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+    if (step.empty() || step.size() > 64 || step.find_first_not_of(kAllowed) != std::string::npos) {
+      throw fail(ErrorKind::plugin, "pass '{}': use lower-case letters, digits, '_' and '-', at most 64",
+                 step.substr(0, 64));
+    }
+  }
   Recorder& recorder_;
   std::string prefix_;
 };

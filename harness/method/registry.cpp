@@ -4,13 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "base/child.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/log.h"
 #include "base/nearest.h"
 #include "method/plugin.h"
 
@@ -36,11 +39,35 @@ std::vector<fs::path> split(const std::string& folders) {
   return out;
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+// UTF-8 without control characters: what can stand in a line, and in JSON.
+bool is_text(const std::string& bytes) {
+  try {
+    [[maybe_unused]] const std::string quoted = Json(bytes).dump();
+  } catch (const Json::exception&) {
+    return false;
+  }
+  return std::ranges::none_of(bytes, is_control);
+}
+
+// The same with '?' for what is no ASCII text.
+std::string shown(std::string bytes) {
+  std::ranges::replace_if(
+      bytes, [](char c) { return is_control(c) || (c & 0x80) != 0; }, '?');
+  return bytes;
+}
+
 std::vector<fs::path> libraries_in(const fs::path& folder) {
   std::vector<fs::path> out;
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
-    if (entry.path().extension() == ".so" && entry.is_regular_file(ec)) out.push_back(entry.path());
+    if (entry.path().extension() != ".so" || !entry.is_regular_file(ec)) continue;
+    if (const std::string name = fs::absolute(entry.path()).string(); is_text(name)) {
+      out.push_back(entry.path());
+    } else {
+      log_warning("plugin {}: left out: its name holds bytes that are no text; rename it", shown(name));
+    }
   }
   std::ranges::sort(out, {}, [](const fs::path& p) { return p.stem(); });
   return out;
@@ -64,7 +91,12 @@ MethodInfo refuse(const fs::path& library, const std::string& why) {
 // A default outside its own range, or one name twice, is the plugin's mistake: better told now than in a run.
 std::string mistake_in(const MethodInfo& info) {
   if (!info.create) return "has no `create`";
+  if (!std::isfinite(info.flux_bound)) return fmt::format("has a flux_bound of {}", info.flux_bound);
   for (const auto& p : info.parameters) {
+    if (!std::isfinite(p.minimum) || !std::isfinite(p.maximum)) {
+      return fmt::format("has a parameter '{}' within {} … {}; both must be finite", p.name, p.minimum,
+                         p.maximum);
+    }
     const auto same = [&](const ParameterInfo& q) { return q.name == p.name; };
     if (std::ranges::count_if(info.parameters, same) > 1) {
       return fmt::format("has two parameters '{}'", p.name);
@@ -92,6 +124,9 @@ MethodInfo open_plugin(const fs::path& library) {
                                        "again against this vsglbench",
                                        header->abi, plugin_abi));
   }
+  if (!fs::is_directory(place.folder)) {
+    return refuse(library, fmt::format("its folder of kernels {}/ is missing; copy it too", place.name));
+  }
   MethodInfo info = header->info();
   info.name = place.name;
   info.library = place.library;
@@ -116,19 +151,40 @@ MethodInfo from_json(const Json& j, const fs::path& library) {
   return info;
 }
 
+// The answer of the `index`th library; empty when it is that of another, or none.
+std::optional<MethodInfo> read_answer(const Json& answer, size_t index, const fs::path& library) {
+  try {
+    if (answer.at("index") != index) return std::nullopt;
+    return from_json(answer.at("method"), library);
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
 // Asks each in a child process; one that takes the child down is refused, and a new child asks the rest.
 std::vector<MethodInfo> inspect(const std::vector<fs::path>& libraries) {
   std::vector<MethodInfo> found;
   while (found.size() < libraries.size()) {
     const size_t first = found.size();
     Child child([&](const ToParent& parent) {
-      for (size_t i = first; i < libraries.size(); ++i) parent.send(to_json(open_plugin(libraries[i])));
+      for (size_t i = first; i < libraries.size(); ++i)
+        parent.send({{"index", i}, {"method", to_json(open_plugin(libraries[i]))}});
     });
-    while (const auto answer = child.receive(kLoadLimit_s)) {
-      found.push_back(from_json(*answer, libraries[found.size()]));
+    std::string how = "ended the process";
+    while (found.size() < libraries.size()) {
+      const auto message = child.receive(kLoadLimit_s);
+      if (!message) {
+        if (!child.how_it_ended().empty()) how = child.how_it_ended();
+        break;
+      }
+      auto answer = read_answer(*message, found.size(), libraries[found.size()]);
+      if (!answer) {
+        how = "sent what is no answer";
+        break;
+      }
+      found.push_back(std::move(*answer));
     }
     if (found.size() == libraries.size()) break;
-    const std::string how = child.how_it_ended().empty() ? "ended the process" : child.how_it_ended();
     found.push_back(refuse(libraries[found.size()], how + " while it was loaded"));
   }
   return found;
@@ -200,6 +256,9 @@ const MethodInfo& find_method(const std::string& name) {
 
 MethodInfo inspect_plugin(const fs::path& library) {
   std::error_code ec;
+  if (const std::string name = fs::absolute(library).string(); !is_text(name)) {
+    return refuse(shown(name), "its name holds bytes that are no text; rename it");
+  }
   if (!fs::is_regular_file(library, ec)) return refuse(library, "no such file");
   return inspect({library}).front();
 }

@@ -13,8 +13,15 @@ std::string error_kind(const Error& error, const char* input) {
 }
 
 std::string one_line(std::string text) {
+  constexpr size_t kMostCharacters = 500;
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  size_t characters = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool starts_character = (byte & 0xC0) != 0x80;  // UTF-8
+    if (starts_character && ++characters > kMostCharacters) return text.substr(0, i) + "…";
+    if (byte < 0x20 || byte == 0x7F) text[i] = ' ';
+  }
   return text;
 }
 

@@ -13,6 +13,7 @@
 #include "measure/stopwatch.h"
 #include "method/registry.h"
 #include "report/environment.h"
+#include "run/case_run.h"
 #include "run/report_store.h"
 #include "run/scene_workers.h"
 
@@ -71,10 +72,27 @@ SceneOutcome take_scene(Report* report, const std::string& scene) {
   return out;
 }
 
+// A result that the report's schema refuses would cost the report of all cases: it fails instead.
+void refuse_invalid(CaseResult* result) {
+  static const Json schema = {{"$ref", "#/$defs/case"}, {"$defs", report_schema().at("$defs")}};
+  const std::vector<std::string> violations = schema_violations(part_to_json(*result), schema);
+  if (violations.empty()) return;
+  CaseResult failed;
+  failed.id = result->id;
+  failed.scene = result->scene;
+  failed.method = result->method;
+  failed.measure = result->measure;
+  failed.parameters = result->parameters;
+  failed.status = Status::failed;
+  failed.error = CaseError{"internal", one_line("no report takes its result: " + violations.front())};
+  *result = std::move(failed);
+}
+
 void add(SceneOutcome outcome, const std::vector<Case>& planned, Report* report) {
   if (outcome.scene) report->scenes.push_back(*outcome.scene);
   if (outcome.aa) report->aa = outcome.aa;
   sort_like(planned, &outcome.cases);
+  for (CaseResult& result : outcome.cases) refuse_invalid(&result);
   std::move(outcome.cases.begin(), outcome.cases.end(), std::back_inserter(report->cases));
 }
 
@@ -120,9 +138,11 @@ int exit_code(const RunOutcome& outcome, bool device_gone) {
 }
 
 WorkerOptions worker_options(const RunOptions& options, const Config& config, ReportStore& store) {
+  // Absolute: a method may change the folder that its process works in.
+  const fs::path assets = assets_directory(options.assets);
   return {.device = {.select = options.device, .validation = options.validation},
-          .scenes = {data_root() / "scenes", assets_directory(options.assets)},
-          .out = store.path().parent_path(),
+          .scenes = {data_root() / "scenes", assets.empty() ? assets : fs::absolute(assets)},
+          .out = fs::absolute(store.path().parent_path()),
           .time_limit_s = options.time_limit_s > 0 ? options.time_limit_s : config.time_limit_s,
           .detach = [&store] { store.leave_to_parent(); },
           .sabotage = options.sabotage};

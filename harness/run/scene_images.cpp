@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <sstream>
 
 #include "base/hash.h"
 #include "base/log.h"
@@ -59,19 +61,29 @@ std::string detail_of(const CaseResult& c) {
                      percent(c.accuracy->bias, 100, "{:+.2f} %"));
 }
 
+// "N=256", "rsm=256", "vis=exact".
+std::vector<std::string> settings_of(const CaseResult& c) {
+  std::vector<std::string> settings;
+  std::istringstream parts(parameters_of(c));
+  for (std::string part; std::getline(parts, part, ',');) settings.push_back(part);
+  return settings;
+}
+
 bool has_image(const CaseResult& c) { return c.images.contains("indirect"); }
 
 // A case with another reference than the one shown carries its own.
 ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases, const SceneReport& scene,
                       const ReferenceResult& shown) {
+  const Captions captions = captions_of(cases);
   ContactSheet sheet;
-  sheet.title = scene.name + ": one-bounce indirect light";
+  sheet.title = fmt::format("{}: one-bounce indirect light   {}", scene.name, captions.shared);
   sheet.reference = shown.mean;
   sheet.reference_detail = fmt::format("{} samples, floor {:.2f} %", shown.samples, shown.noise_floor_smape);
   sheet.mask = shown.mask;
   sheet.exposure = static_cast<float>(scene.exposure);
-  for (const CaseResult& c : cases) {
-    ContactEntry entry{c.method + " " + parameters_of(c), detail_of(c), std::nullopt, std::nullopt};
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const CaseResult& c = cases[i];
+    ContactEntry entry{captions.cases[i], detail_of(c), std::nullopt, std::nullopt};
     if (has_image(c)) entry.image = read_exr(out / c.images.at("indirect"));
     if (has_image(c) && c.accuracy && c.accuracy->reference.hash != shown.hash)
       entry.reference = read_exr(out / c.images.at("reference"));
@@ -97,6 +109,24 @@ std::string file_name(const std::string& name) {
   if (!out.empty() && out.front() == '.') out.front() = '_';
   if (!changed && out.size() <= kLongestName) return out;
   return out.substr(0, kLongestName) + "-" + short_hash(name);
+}
+
+Captions captions_of(const std::vector<CaseResult>& cases) {
+  std::map<std::string, size_t> uses;
+  for (const CaseResult& c : cases) {
+    for (const auto& setting : settings_of(c)) ++uses[setting];
+  }
+  Captions captions;
+  for (const CaseResult& c : cases) {
+    std::string own = c.method;
+    for (const auto& setting : settings_of(c)) {
+      const bool shared = uses[setting] == cases.size();
+      if (!shared) own += " " + setting;
+      if (shared && captions.cases.empty()) captions.shared += (captions.shared.empty() ? "" : " ") + setting;
+    }
+    captions.cases.push_back(own);
+  }
+  return captions;
 }
 
 SceneImages::SceneImages(fs::path out, const std::vector<CaseResult>& earlier, SceneReport* scene)
@@ -137,6 +167,7 @@ void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const Refere
     const std::string path = folder_of(scene_->name) + "/contact.png";
     write_png(out_ / path, contact_sheet(sheet_of(out_, cases, *scene_, shown)));
     scene_->contact = path;
+    log_info("contact sheet: {}", (out_ / path).string());
   };
   guarded("output", write_it, warn);
 }

@@ -15,6 +15,14 @@ namespace vsglbench {
 // meet.
 std::string file_name(const std::string& name);
 
+// What a contact sheet says of the cases of one scene: each one's method with those "KEY=VALUE" of its id
+// that not all cases have, such as "mfis N=64"; and those that they all have.
+struct Captions {
+  std::vector<std::string> cases;
+  std::string shared;  // "rsm=256 vis=exact"
+};
+Captions captions_of(const std::vector<CaseResult>& cases);
+
 // Writes to out/images/<scene>/, every case as soon as it is measured: what is on the disk survives whatever
 // a later case does. Nothing here throws but Error(device).
 class SceneImages {

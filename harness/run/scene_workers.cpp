@@ -90,6 +90,7 @@ void work(const ToParent& parent, const std::string& scene, const Config& config
 
 // --- in the parent ---
 
+constexpr const char* kStarting = "starting";  // until a worker says more
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
 void add(const WallTime& more, WallTime* sum) {
@@ -116,7 +117,7 @@ struct End {
   bool done = false;
   std::string kind, how;  // unless done: as CaseError; no_device apart
   std::string no_device;
-  Activity activity{"", "starting", false};
+  Activity activity{"", kStarting, false};
 
   std::string message() const { return one_line(how) + " during " + activity.action; }
 };
@@ -130,7 +131,12 @@ class Watch {
     while (!end_.done && end_.how.empty() && end_.no_device.empty()) {
       const auto message = child.receive(end_.activity.limited ? time_limit_s : kForEver);
       if (message) {
-        take(*message);
+        try {
+          take(*message);
+        } catch (const std::exception&) {  // a key that is missing, a value of another type
+          end_.kind = "crashed";
+          end_.how = "sent what is no message";
+        }
       } else {
         end_.kind = child.timed_out() ? "timeout" : "crashed";
         end_.how = child.how_it_ended().empty() ? "ended the process (exit code 0)" : child.how_it_ended();
@@ -196,8 +202,12 @@ DeviceReport probe_device(const WorkerOptions& options) {
     throw fail(ErrorKind::device, "opening the device {}; see vsglbench doctor",
                child.how_it_ended().empty() ? "ended the process" : child.how_it_ended());
   }
-  if (answer->contains("no_device")) throw Error(ErrorKind::device, answer->at("no_device"));
-  return part_from_json<DeviceReport>(answer->at("device"));
+  try {
+    if (answer->contains("no_device")) throw Error(ErrorKind::device, answer->at("no_device"));
+    return part_from_json<DeviceReport>(answer->at("device"));
+  } catch (const Json::exception& e) {
+    throw fail(ErrorKind::device, "opening the device sent what is no message: {}", e.what());
+  }
 }
 
 void run_scene_in_workers(const std::string& scene, const Config& config, const std::vector<Case>& cases,
@@ -208,6 +218,7 @@ void run_scene_in_workers(const std::string& scene, const Config& config, const 
     for (auto& result : failed_cases(which, config, kind, message)) outcome->cases.push_back(result);
   };
   std::vector<Case> left = without_result(cases, *outcome);
+  bool started_twice = false;
   while (needs_worker(left, *outcome)) {
     End end;
     {
@@ -222,7 +233,13 @@ void run_scene_in_workers(const std::string& scene, const Config& config, const 
       log->device_gone = end.no_device;
       return fail_all(left, "device", "the device can't be opened any more: " + end.no_device);
     }
-    // 1. Blame. A twin's failure costs the A/A pair.
+    // 1. Nothing had begun: whoever killed it may leave the next alone.
+    if (end.activity.action == kStarting && end.kind == "crashed" && !started_twice) {
+      started_twice = true;
+      log_warning("{}: {}; it is started once more", scene, end.message());
+      continue;
+    }
+    // 2. Blame. A twin's failure costs the A/A pair.
     const auto guilty =
         std::find_if(left.begin(), left.end(), [&](const Case& c) { return c.id == end.activity.case_id; });
     const bool own_work = end.activity.case_id.empty();
@@ -235,7 +252,7 @@ void run_scene_in_workers(const std::string& scene, const Config& config, const 
       fail_all(left, end.kind == "device_lost" ? "device" : end.kind, end.message());
       return died();
     }
-    // 2. The rest in a new worker.
+    // 3. The rest in a new worker.
     died();
     left = without_result(cases, *outcome);
   }

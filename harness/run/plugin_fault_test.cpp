@@ -1,0 +1,167 @@
+// Faults of a plugin (cli/bad_plugins/faulty.cpp): each costs its own case, in one line, and nothing else.
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+
+#include "base/error.h"
+#include "method/registry.h"
+#include "run/run_fixture.h"
+#include "run/runner.h"
+#include "run/scene_workers.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+const fs::path kBad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+// Before any test looks for methods: what was found is kept for the process.
+const bool kFindsThem = ::setenv("VSGLBENCH_PLUGINS", kBad.c_str(), 1) == 0;
+
+class PluginFault : public RunFixture {
+ protected:
+  void SetUp() override {
+    RunFixture::SetUp();
+    ASSERT_TRUE(kFindsThem);
+    ::setenv("VSGLBENCH_TEST_PID", (folder_ / "pid").c_str(), 1);
+    config_["N"] = 8;
+  }
+  void TearDown() override {
+    for (const char* name : {"VSGLBENCH_TEST_PID", "VSGLBENCH_TEST_MISTAKE"}) ::unsetenv(name);
+    RunFixture::TearDown();
+  }
+  // vpl, a case of each fault, and vpl again.
+  RunOutcome run(const std::vector<std::string>& faults, const fs::path& out = {}) {
+    config_["methods"] = Json::array({{{"method", "vpl"}}});
+    for (const auto& fault : faults) config_["methods"].push_back({{"method", "faulty"}, {"fault", fault}});
+    config_["methods"].push_back({{"method", "mfis"}});
+    RunOptions options;
+    options.config = write_config();
+    options.out = out.empty() ? out_ : out;
+    options.argv = {"vsglbench", "run"};
+    return run_config(options);
+  }
+  // What each fault makes of its case; the others are well, and the report is sound.
+  void expect_failures(const std::vector<std::string>& faults, const std::string& kind,
+                       const std::vector<std::string>& messages) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(run(faults).exit_code, 1);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(120));
+    expect_sound(out_ / "report.json");
+    const Report r = read_report(out_ / "report.json");
+    EXPECT_TRUE(r.complete);
+    ASSERT_EQ(r.cases.size(), faults.size() + 2);
+    for (const size_t i : {size_t{0}, r.cases.size() - 1}) EXPECT_EQ(r.cases[i].status, Status::ok);
+    for (size_t i = 0; i < faults.size(); ++i) {
+      SCOPED_TRACE(faults[i]);
+      const CaseResult& c = r.cases[i + 1];
+      ASSERT_EQ(c.status, Status::failed);
+      EXPECT_EQ(c.error->kind, kind) << c.error->message;
+      EXPECT_TRUE(contains(c.error->message, messages[i]));
+      EXPECT_LT(c.error->message.size(), 600u);
+      EXPECT_TRUE(std::none_of(c.error->message.begin(), c.error->message.end(),
+                               [](char b) { return static_cast<unsigned char>(b) < 0x20; }));
+    }
+  }
+  std::string refused(const std::string& mistake) {
+    ::setenv("VSGLBENCH_TEST_MISTAKE", mistake.c_str(), 1);
+    const std::string why = inspect_plugin(kBad / "faulty.so").refused;
+    EXPECT_EQ(why.find('\n'), std::string::npos);
+    return why;
+  }
+};
+
+TEST_F(PluginFault, ForeignBytesInThePipeEndTheWorker) {
+  expect_failures({"garbage", "forged"}, "crashed", {"sent what is no message", "sent what is no message"});
+}
+
+TEST_F(PluginFault, AClosedPipeAndAnOrphanAreNotWaitedFor) {
+  expect_failures({"closes", "orphan"}, "crashed", {"closed its pipe and went on", "signal 9"});
+  const pid_t orphan = std::stoi(read_text(folder_ / "pid"));
+  std::string state = "(gone) Z";  // killed, though whoever adopts it may not have reaped it yet
+  std::ifstream stat(fmt::format("/proc/{}/stat", orphan));
+  std::getline(stat, state);
+  EXPECT_TRUE(!stat || contains(state, ") Z")) << state;
+}
+
+TEST_F(PluginFault, WhatIsNoMethodIsRefusedByItsCase) {
+  expect_failures({"bad-pass", "nested-pass", "no-kind", "no-lights", "no-method"}, "plugin",
+                  {"pass 'Build Tree': use lower-case letters, digits, '_' and '-', at most 64",
+                   "pass 'inner': passes don't nest", "kind() is 7", "light_count(8, 256) is 0",
+                   "`create` made no method"});
+}
+
+TEST_F(PluginFault, AResultThatNoReportTakesFailsAlone) {
+  expect_failures({"raw-pass"}, "internal", {"no report takes its result"});
+}
+
+TEST_F(PluginFault, AnEndlessErrorIsCutToALine) {
+  expect_failures({"long-error"}, "internal", {"told  [31mxxx"});
+  EXPECT_TRUE(contains(read_report(out_ / "report.json").cases[1].error->message, "…"));
+}
+
+TEST_F(PluginFault, AnotherWorkingFolderLosesNoImage) {
+  EXPECT_EQ(run({"folder"}, fs::relative(out_)).exit_code, 0);
+  for (const auto& c : read_report(out_ / "report.json").cases) {
+    EXPECT_EQ(c.status, Status::ok);
+    for (const auto& [name, image] : c.images) EXPECT_TRUE(fs::exists(out_ / image)) << image;
+    EXPECT_FALSE(c.images.empty());
+  }
+}
+
+TEST_F(PluginFault, AWorkerKilledBeforeItBeganIsStartedOnceMore) {
+  const Config config = load_config(write_config());
+  WorkerOptions options{.scenes = {data_root() / "scenes", {}}, .out = out_};
+  const fs::path starts = folder_ / "starts";
+  const auto attempt = [&](size_t killed) {
+    write_text(starts, "");
+    options.detach = [=] {
+      const std::string before = read_text(starts);
+      write_text(starts, before + ".");
+      if (before.size() < killed) ::raise(SIGKILL);
+    };
+    SceneOutcome outcome;
+    WorkerLog log;
+    run_scene_in_workers(
+        "cornell", config, config.cases, false, options, [] {}, &outcome, &log);
+    return outcome.cases.at(0);
+  };
+  EXPECT_EQ(attempt(1).status, Status::ok);
+  EXPECT_EQ(read_text(starts), "..");
+  const CaseResult failed = attempt(9);
+  EXPECT_EQ(failed.status, Status::failed);
+  EXPECT_TRUE(contains(failed.error->message, "signal 9"));
+  EXPECT_EQ(read_text(starts), "..");
+}
+
+// --- what a plugin says of itself ---
+
+TEST_F(PluginFault, NumbersThatJsonDoesNotKnowAreRefused) {
+  EXPECT_EQ(refused("none"), "");
+  EXPECT_TRUE(contains(refused("maximum"), "has a parameter 'size' within 0 … inf; both must be finite"));
+  EXPECT_TRUE(contains(refused("minimum"), "has a parameter 'size' within nan … 2; both must be finite"));
+  EXPECT_TRUE(contains(refused("flux_bound"), "has a flux_bound of nan"));
+  EXPECT_TRUE(contains(refused("garbage"), "sent what is no message while it was loaded"));
+}
+
+TEST_F(PluginFault, WithoutItsKernelsItIsRefused) {
+  fs::copy_file(kBad / "faulty.so", folder_ / "faulty-old.so");
+  const std::string why = inspect_plugin(folder_ / "faulty-old.so").refused;
+  EXPECT_TRUE(contains(why, "its folder of kernels faulty-old/ is missing; copy it too"));
+}
+
+TEST_F(PluginFault, AFileNameThatIsNoTextIsRefused) {
+  for (const char* name : {"new\nline.so", "no\xff utf8.so"}) {
+    fs::copy_file(kBad / "faulty.so", folder_ / name);
+    const std::string why = inspect_plugin(folder_ / name).refused;
+    EXPECT_TRUE(contains(why, "its name holds bytes that are no text"));
+    EXPECT_NO_THROW(Json(why).dump());
+    EXPECT_EQ(why.find('\n'), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace vsglbench
