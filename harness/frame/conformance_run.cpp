@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "frame/checked_method.h"
 
 namespace vsglbench {
 namespace {
@@ -73,7 +74,7 @@ class DispatchWatch {
 // The method; where it reads a parameter that it does not declare, the error says which.
 std::unique_ptr<Method> create(const MethodInfo& info, MethodContext& context, const Json& parameters) {
   try {
-    return info.create(context, parameters);
+    return make_method(info, context, parameters);
   } catch (const Json::out_of_range& e) {
     std::vector<std::string> declared;
     for (const ParameterInfo& p : info.parameters) declared.push_back(p.name);

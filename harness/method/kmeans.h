@@ -24,7 +24,20 @@ struct KMeansParameters {
 // [MFIS16 Tab. 1] reports them; `assign` and `sort` come once more for every Lloyd step, with `move` between.
 std::unique_ptr<Method> make_kmeans(MethodContext& context, const KMeansParameters& parameters);
 
-// The parameter `iterations`, as every k-means method describes it.
+// The parameter `iterations`.
 ParameterInfo lloyd_iterations();
+
+// A k-means method: what all of them say of themselves.
+template <int dimensions, NearestCentre::Search search, ClusterSumVariant sum>
+MethodInfo kmeans_info(const std::string& summary) {
+  return {
+      .summary = summary,
+      .source = "[MFIS16] App. D",
+      .parameters = {lloyd_iterations()},
+      .flux_bound = 1e-4,  // every texel is in one cluster
+      .create = [](MethodContext& context, const Json& parameters) {
+        return make_kmeans(context, {dimensions, search, sum, parameters.at("iterations").get<uint32_t>()});
+      }};
+}
 
 }  // namespace vsglbench

@@ -2,14 +2,5 @@
 #include "method/kmeans.h"
 #include "method/plugin.h"
 
-VSGLBENCH_METHOD(MethodInfo{.summary = "k-means in the world, one thread a cluster sums it",
-                            .source = "[MFIS16] App. D",
-                            .parameters = {lloyd_iterations()},
-                            .flux_bound = 1e-4,  // every texel is in one cluster
-                            .create = [](MethodContext& context, const Json& parameters) {
-                              return make_kmeans(context,
-                                                 {.dimensions = 3,
-                                                  .search = NearestCentre::Search::kd_tree,
-                                                  .sum = ClusterSumVariant::per_cluster,
-                                                  .iterations = parameters.at("iterations").get<uint32_t>()});
-                            }})
+VSGLBENCH_METHOD(kmeans_info<3, NearestCentre::Search::kd_tree, ClusterSumVariant::per_cluster>(
+    "k-means in the world, one thread a cluster sums it"))

@@ -1,16 +1,7 @@
-// k-means clusters of texels by distance in the world, sorted, searched and summed as fast as it goes [MFIS16
+// k-means clusters of texels by distance in the world, searched and summed as fast as we know how [MFIS16
 // App. D].
 #include "method/kmeans.h"
 #include "method/plugin.h"
 
-VSGLBENCH_METHOD(MethodInfo{.summary = "k-means in the world, sorted, searched and summed as fast as it goes",
-                            .source = "[MFIS16] App. D",
-                            .parameters = {lloyd_iterations()},
-                            .flux_bound = 1e-4,  // every texel is in one cluster
-                            .create = [](MethodContext& context, const Json& parameters) {
-                              return make_kmeans(context,
-                                                 {.dimensions = 3,
-                                                  .search = NearestCentre::Search::tiles,
-                                                  .sum = ClusterSumVariant::segmented,
-                                                  .iterations = parameters.at("iterations").get<uint32_t>()});
-                            }})
+VSGLBENCH_METHOD(kmeans_info<3, NearestCentre::Search::tiles, ClusterSumVariant::segmented>(
+    "k-means in the world, searched and summed as fast as we know how"))

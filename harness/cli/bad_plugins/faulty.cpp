@@ -52,7 +52,11 @@ void do_harm(const std::string& fault, Steps& steps) {
   if (fault == "bad-pass") steps.pass("Build Tree", [] {});
   if (fault == "nested-pass") steps.pass("outer", [&] { steps.pass("inner", [] {}); });
   if (fault == "folder" && ::chdir("/") != 0) throw std::runtime_error("chdir");
-  if (fault == "long-error") throw std::runtime_error("told\t\x1b[31m" + std::string(5 << 20, 'x'));
+  if (fault == "long-error") {
+    std::string message = "told\t\x1b[31mand so on";
+    while (message.size() < 5 << 20) message += " and so on";
+    throw std::runtime_error(message);
+  }
 }
 
 class Faulty : public Method {
