@@ -5,8 +5,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/nearest.h"
 #include "frame/checked_method.h"
 #include "method/filtered_sampling.h"
+#include "method/registry.h"
 
 namespace vsglbench {
 namespace {
@@ -15,8 +17,8 @@ std::filesystem::path kernel_path(const char* file) { return data_root() / "harn
 
 // Of the kernels that evaluate lights. VPLs have exact BRDFs, whatever is chosen for VSGLs.
 ShaderDefines light_defines(LightKind kind, const Shading& shading) {
-  ShaderDefines defines = kind == LightKind::vpl ? ShaderDefines{} : shading_defines(shading);
-  defines["LIGHT_VPL"] = kind == LightKind::vpl ? "1" : "0";
+  ShaderDefines defines = kind == LightKind::vsgl ? shading_defines(shading) : ShaderDefines{};
+  defines["LIGHT_VPL"] = kind == LightKind::vsgl ? "0" : "1";
   return defines;
 }
 
@@ -57,7 +59,25 @@ void add(FrameTimes& times, const SubmissionTimes& submission) {
   times.span_ms += submission.span_ms;
 }
 
+// The shift of one iteration: from the seed's own along Roberts' R2 sequence, so that the iterations' lattices
+// fill each other's gaps.
+glm::uvec2 iteration_shift(uint32_t seed, uint32_t iteration) {
+  return lattice_shift(seed) + iteration * glm::uvec2(3242174889u, 2447445414u);
+}
+
 }  // namespace
+
+const std::vector<std::string>& importance_names() {
+  static const std::vector<std::string> names = {"own", "vsgl", "vpl", "flux"};
+  return names;
+}
+
+Importance parse_importance(const std::string& name) {
+  const auto& names = importance_names();
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it != names.end()) return static_cast<Importance>(it - names.begin());
+  throw fail(ErrorKind::config, "no importance '{}'{}", name, suggestion(name, names));
+}
 
 glm::uvec2 lattice_shift(uint32_t seed) {
   if (seed == 0) return glm::uvec2(0);
@@ -74,9 +94,9 @@ DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height) {
   return *slot;
 }
 
-ImperfectShadowMaps& Stage::shadow_maps(const IsmParameters& p) {
-  auto& slot = shadow_maps_[{p.size, p.points}];
-  if (!slot) slot = std::make_unique<ImperfectShadowMaps>(kernels, scratch, scene, p);
+ImperfectShadowMaps& Stage::shadow_maps(Visibility technique, const IsmParameters& p) {
+  auto& slot = shadow_maps_[{technique, p.size, p.points}];
+  if (!slot) slot = std::make_unique<ImperfectShadowMaps>(kernels, scratch, scene, technique, p);
   return *slot;
 }
 
@@ -97,8 +117,16 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
                parameters.lights, texels, texels);
   }
   light_count_ = light_count_of(*method_, method.name, parameters.lights, texels);
+  std::string importance_name = method.name;
+  if (lights_gbuffer() && parameters.importance != Importance::own) {
+    importance_name = parameters.importance == Importance::vsgl ? "mfis" : "vpl";
+    const MethodInfo info = load_method(importance_name, stage.device.info());
+    other_context_ = std::make_unique<MethodContext>(stage.kernels, stage.scratch, info.folder,
+                                                     shading_defines(parameters.shading));
+    other_method_ = make_method(info, *other_context_, resolve_parameters(info, Json::object()));
+  }
   importance_count_ = light_count_of(
-      *method_, method.name,
+      importance_method(), importance_name,
       static_cast<uint32_t>(std::clamp<uint64_t>(parameters.importance_lights, 1, pixels)), pixels);
   const View camera = camera_view(stage.scene.camera, parameters.width, parameters.height);
   camera_ = make_emitter(camera, parameters.width, parameters.height, glm::vec3(1), true);
@@ -117,8 +145,11 @@ Buffer& Frame::pdf_buffer(Half half) {
   return stage_.scratch.get(fmt::format("pdf.{}", half_name(half)), pyramid_texels(t.width, t.height) * 4);
 }
 
-Buffer& Frame::light_buffer(Half half, uint32_t count) {
-  return stage_.scratch.get(fmt::format("lights.{}", half_name(half)), count * light_stride(method_->kind()));
+Buffer& Frame::light_buffer(Half half) const {
+  const bool gbuffer = half == Half::gbuffer;
+  const uint32_t count = gbuffer ? importance_count_ : light_count_;
+  const size_t stride = light_stride((gbuffer ? importance_method() : *method_).kind());
+  return stage_.scratch.get(fmt::format("lights.{}", half_name(half)), count * stride);
 }
 
 Field Frame::field(Half half, const Buffer* pdf) {
@@ -132,34 +163,41 @@ Field Frame::field(Half half, const Buffer* pdf) {
 }
 
 FrameTimes Frame::render(uint32_t seed) {
-  const glm::uvec2 shift = lattice_shift(seed);
   FrameTimes times;
   generate_dispatches_ = 0;
-  recorder_.begin();
-  draw_halves(recorder_);
-  if (method_->uses_importance()) make_importance(recorder_, shift);
-  generate_lights(recorder_, method_->uses_importance() ? &pdf_buffer(Half::rsm) : nullptr, shift);
-  if (parameters_.visibility == Visibility::exact) {
-    // The host traces between two submissions; its time is not the frame's.
-    add(times, recorder_.submit_and_wait());
-    auto points = light_points();
-    const auto same = [](const LightPoint& a, const LightPoint& b) {
-      return a.position == b.position && a.stop_short == b.stop_short;
-    };
-    if (!std::equal(points.begin(), points.end(), traced_.begin(), traced_.end(), same)) {
-      bits_ = exact_(points);
-      traced_ = std::move(points);
-    }
-    recorder_.begin();
-  }
-  shade(recorder_);
-  add(times, recorder_.submit_and_wait());
+  for (uint32_t i = 0; i < parameters_.iterations; ++i) render_iteration(seed, i, &times);
   times.generate_dispatches = generate_dispatches_;
   return times;
 }
 
+void Frame::render_iteration(uint32_t seed, uint32_t iteration, FrameTimes* times) {
+  const glm::uvec2 shift = iteration_shift(seed, iteration);
+  recorder_.begin();
+  if (iteration == 0) draw_halves(recorder_);
+  if (uses_importance()) make_importance(recorder_, shift);
+  generate_lights(recorder_, uses_importance() ? &pdf_buffer(Half::rsm) : nullptr, shift);
+  if (parameters_.visibility == Visibility::exact) {
+    // The host traces between two submissions; its time is not the frame's.
+    add(*times, recorder_.submit_and_wait());
+    trace_visibility();
+    recorder_.begin();
+  }
+  shade(recorder_, seed, iteration);
+  add(*times, recorder_.submit_and_wait());
+}
+
+void Frame::trace_visibility() {
+  auto points = light_points();
+  const auto same = [](const LightPoint& a, const LightPoint& b) {
+    return a.position == b.position && a.stop_short == b.stop_short;
+  };
+  if (std::equal(points.begin(), points.end(), traced_.begin(), traced_.end(), same)) return;
+  bits_ = exact_(points);
+  traced_ = std::move(points);
+}
+
 KeptPdfs Frame::prepare(uint32_t seed) {
-  if (!method_->uses_importance()) throw fail(ErrorKind::case_failed, "this method makes no PDFs");
+  if (!uses_importance()) throw fail(ErrorKind::case_failed, "this method makes no PDFs");
   recorder_.begin();
   draw_halves(recorder_);
   make_importance(recorder_, lattice_shift(seed));
@@ -180,8 +218,8 @@ FrameTimes Frame::generate_only(uint32_t seed, const KeptPdfs& pdfs) {
   FrameTimes times;
   generate_dispatches_ = 0;
   recorder_.begin();
-  if (method_->uses_importance()) generate_importance_lights(recorder_, &pdfs.gbuffer, shift);
-  generate_lights(recorder_, method_->uses_importance() ? &pdfs.rsm : nullptr, shift);
+  if (lights_gbuffer()) generate_importance_lights(recorder_, &pdfs.gbuffer, shift);
+  generate_lights(recorder_, uses_importance() ? &pdfs.rsm : nullptr, shift);
   add(times, recorder_.submit_and_wait());
   times.generate_dispatches = generate_dispatches_;
   return times;
@@ -203,20 +241,28 @@ void Frame::build_pdf_mips(Recorder& r, const Buffer& pdf, uint32_t w, uint32_t 
   }
 }
 
+void Frame::reflectance_pdf(Recorder& r, Half half) {
+  const Field f = field(half, nullptr);
+  const Buffer& pdf = pdf_buffer(half);
+  r.dispatch(stage_.kernels.get(kernel_path("pdf_reflectance.comp")),
+             {*f.maps[0], *f.maps[1], *f.maps[2], *f.maps[3], *f.maps[4], pdf}, f.emitter,
+             groups_for(f.emitter.width, 8), groups_for(f.emitter.height, 8));
+  build_pdf_mips(r, pdf, f.emitter.width, f.emitter.height);
+}
+
 void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
+  if (parameters_.importance == Importance::flux) {
+    r.pass("importance.rsm", [&] { reflectance_pdf(r, Half::rsm); });
+    return;
+  }
   // 1. The eye's PDF on the G-buffer: reflectance.
-  const auto g = gbuffer_->pointers();
-  r.pass("importance.gbuffer", [&] {
-    const Buffer& pdf = pdf_buffer(Half::gbuffer);
-    r.dispatch(stage_.kernels.get(kernel_path("pdf_gbuffer.comp")), {*g[0], *g[1], *g[2], *g[3], *g[4], pdf},
-               camera_, groups_for(camera_.width, 8), groups_for(camera_.height, 8));
-    build_pdf_mips(r, pdf, camera_.width, camera_.height);
-  });
-  // 2. Lights on the G-buffer, by the method under test.
+  r.pass("importance.gbuffer", [&] { reflectance_pdf(r, Half::gbuffer); });
+  // 2. Lights on the G-buffer.
   generate_importance_lights(r, &pdf_buffer(Half::gbuffer), shift);
   // 3. What they are worth at every RSM texel.
-  const Buffer& lights = light_buffer(Half::gbuffer, importance_count_);
+  const Buffer& lights = light_buffer(Half::gbuffer);
   const auto m = rsm_->pointers();
+  const ShaderDefines defines = light_defines(importance_method().kind(), parameters_.shading);
   r.pass("importance.rsm", [&] {
     const Buffer& pdf = pdf_buffer(Half::rsm);
     for (const LightRange& range : light_ranges(importance_count_, kMostLights)) {
@@ -225,8 +271,7 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
         LightRange range;
       } push{light_, range};
       if (range.first > 0) r.barrier();
-      r.dispatch(stage_.kernels.get(kernel_path("importance.comp"),
-                                    light_defines(method_->kind(), parameters_.shading)),
+      r.dispatch(stage_.kernels.get(kernel_path("importance.comp"), defines),
                  {*m[0], *m[1], *m[2], *m[3], *m[4], lights, pdf}, push, groups_for(light_.width, 8),
                  groups_for(light_.height, 8));
     }
@@ -235,61 +280,83 @@ void Frame::make_importance(Recorder& r, glm::uvec2 shift) {
 }
 
 void Frame::generate_importance_lights(Recorder& r, const Buffer* pdf, glm::uvec2 shift) {
-  const Buffer& lights = light_buffer(Half::gbuffer, importance_count_);
-  generate(r, field(Half::gbuffer, pdf), {&lights, importance_count_, shift});
+  generate(r, importance_method(), field(Half::gbuffer, pdf),
+           {&light_buffer(Half::gbuffer), importance_count_, shift});
 }
 
 void Frame::generate_lights(Recorder& r, const Buffer* pdf, glm::uvec2 shift) {
-  const Buffer& lights = light_buffer(Half::rsm, light_count_);
-  generate(r, field(Half::rsm, pdf), {&lights, light_count_, shift});
+  generate(r, *method_, field(Half::rsm, pdf), {&light_buffer(Half::rsm), light_count_, shift});
 }
 
-void Frame::generate(Recorder& r, const Field& f, const LightTarget& target) {
+void Frame::generate(Recorder& r, Method& method, const Field& f, const LightTarget& target) {
   const unsigned before = r.dispatches();
   Steps steps(r, f.half);
-  method_->generate(steps, f, target);
+  method.generate(steps, f, target);
   generate_dispatches_ += r.dispatches() - before;
 }
 
-void Frame::shade(Recorder& r) {
-  const Buffer& lights = light_buffer(Half::rsm, light_count_);
+bool Frame::needs_light_texels() const {
+  if (method_->kind() != LightKind::vsgl) return false;
+  return parameters_.bias_reduction > 0 || shading_defines(parameters_.shading).contains("LOBE_FILTER");
+}
+
+const Buffer& Frame::light_texels(Recorder& r) {
+  const Buffer& texels = stage_.scratch.get("light texels", size_t(light_count_) * sizeof(gpu::Vpl));
+  const auto m = rsm_->pointers();
+  r.pass("shade.texels", [&] {
+    const struct {
+      gpu::Emitter emitter;
+      uint32_t count;
+    } push{light_, light_count_};
+    r.dispatch(stage_.kernels.get(kernel_path("light_texels.comp"), shading_defines(parameters_.shading)),
+               {*m[0], *m[1], *m[2], *m[3], *m[4], light_buffer(Half::rsm), texels}, push,
+               groups_for(light_count_, 64));
+  });
+  return texels;
+}
+
+void Frame::shade(Recorder& r, uint32_t seed, uint32_t iteration) {
+  const Buffer& lights = light_buffer(Half::rsm);
   const uint64_t pixels = uint64_t(camera_.width) * camera_.height;
   Buffer& indirect = stage_.scratch.get("indirect", pixels * sizeof(glm::vec4));
+  const bool reduces_bias = method_->kind() == LightKind::vsgl && parameters_.bias_reduction > 0;
   ShaderDefines defines = light_defines(method_->kind(), parameters_.shading);
-  defines["VISIBILITY"] = std::to_string(static_cast<int>(parameters_.visibility));
+  // All kinds of shadow maps are read alike.
+  defines["VISIBILITY"] = std::to_string(static_cast<int>(std::min(parameters_.visibility, Visibility::ism)));
+  if (method_->kind() == LightKind::vsl) defines["LIGHT_VSL"] = "1";
+  if (reduces_bias) defines["BIAS_REDUCTION"] = "1";
   const Kernel& kernel = stage_.kernels.get(kernel_path("shade.comp"), defines);
-  const uint32_t words = groups_for(pixels, 32), gx = groups_for(camera_.width, 8),
-                 gy = groups_for(camera_.height, 8);
-  const auto g = gbuffer_->pointers();
-  struct {
-    gpu::Emitter emitter;
-    uint32_t first, count, words, accumulate, map_size;
-  } push{camera_, 0, light_count_, words, 0, parameters_.ism.size};
+  ShadePush push{.emitter = camera_, .words = groups_for(pixels, 32), .map_size = parameters_.ism.size};
+  push.random = static_cast<uint32_t>(mix(uint64_t(seed) << 32 | iteration));
+  push.radius2_scale = std::pow(4.0f / 9.0f, static_cast<float>(iteration));
+  push.weight = 1.0f / static_cast<float>(parameters_.iterations);
+  push.alpha = parameters_.bias_reduction;
 
+  const auto g = gbuffer_->pointers();
+  std::vector<Binding> bound = {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect};
+  if (needs_light_texels()) {
+    const Buffer& texels = light_texels(r);
+    if (reduces_bias) bound.push_back(texels);
+  }
   uint32_t most = kMostLights;
-  std::vector<const Buffer*> visibility;  // none; or that of all lights; or one of each range
-  if (parameters_.visibility == Visibility::ism) {
-    const auto maps = stage_.shadow_maps(parameters_.ism).build(r, lights, method_->kind(), light_count_);
-    visibility = {maps.depth, maps.frames};
+  std::vector<const Buffer*> bits;  // one of each range
+  if (has_shadow_maps(parameters_.visibility)) {
+    const auto maps = stage_.shadow_maps(parameters_.visibility, parameters_.ism)
+                          .build(r, lights, method_->kind(), light_count_, *gbuffer_);
+    bound.push_back(*maps.depth);
+    bound.push_back(*maps.frames);
   } else if (parameters_.visibility == Visibility::exact) {
-    most = std::min(most, upload_bits(words, &visibility));
+    most = std::min(most, upload_bits(push.words, &bits));
   }
   r.pass("shade", [&] {
     for (const LightRange& range : light_ranges(light_count_, most)) {
       push.first = range.first;
       push.count = range.count;
-      push.accumulate = range.first > 0;
-      if (push.accumulate) r.barrier();
-      if (parameters_.visibility == Visibility::none) {
-        r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect}, push, gx, gy);
-      } else if (parameters_.visibility == Visibility::ism) {
-        r.dispatch(kernel,
-                   {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, *visibility[0], *visibility[1]},
-                   push, gx, gy);
-      } else {
-        const Buffer& bits = *visibility[range.first / most];
-        r.dispatch(kernel, {*g[0], *g[1], *g[2], *g[3], *g[4], lights, indirect, bits}, push, gx, gy);
-      }
+      push.accumulate = range.first > 0 || iteration > 0;
+      if (range.first > 0) r.barrier();
+      auto with_bits = bound;
+      if (!bits.empty()) with_bits.push_back(*bits[range.first / most]);
+      r.dispatch(kernel, with_bits, push, groups_for(camera_.width, 8), groups_for(camera_.height, 8));
     }
   });
 }

@@ -3,7 +3,9 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "frame/scene_gpu.h"
@@ -14,6 +16,13 @@
 
 namespace vsglbench {
 
+// Whose lights on the G-buffer make the PDF on the RSM: the method's own; VSGLs, of `mfis` [VSGL14 §3]; VPLs, of
+// `vpl`, as the first BRSM had it (Ritschel et al. 2011) [VSGL14 Fig. 4a]; or nobody's: the power that each texel
+// reflects.
+enum class Importance { own, vsgl, vpl, flux };
+const std::vector<std::string>& importance_names();  // in the order of the enumeration
+Importance parse_importance(const std::string& name);  // throws Error(config)
+
 // Parameters of a case that are not the method's own.
 struct FrameParameters {
   uint32_t width = 480, height = 272;  // G-buffer
@@ -22,13 +31,32 @@ struct FrameParameters {
   uint32_t importance_lights = 2048;   // on the G-buffer; at most its number of pixels is used
   Visibility visibility = Visibility::exact;
   IsmParameters ism;
-  Shading shading;  // of VSGLs
+  Shading shading;           // of VSGLs
+  float bias_reduction = 0;  // α of [VSGL14 §3.3], of VSGLs; 0: none
+  Importance importance = Importance::own;
+  // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
+  // [VSGL14 §5].
+  uint32_t iterations = 1;
+};
+
+// What the pixels say beside their colour; each is absent where the case does not have it.
+struct ShadingNotes {
+  std::optional<double> clamp_removed;      // luminance that VPLs' clamp took away / luminance without it
+  std::optional<double> cancellation_rate;  // mean share of lights shaded with exact BRDFs [VSGL14 Fig. 6]
+  std::optional<Image> cancellation;        // that share by pixel, grey
 };
 
 struct FrameTimes {
   std::vector<PassTime> passes;    // in order of first appearance, one entry a name
   double span_ms = 0, sum_ms = 0;  // span: first to last timestamp, summed over submissions
   unsigned generate_dispatches = 0;
+};
+
+// Push constants of shade.comp, which says what they mean.
+struct ShadePush {
+  gpu::Emitter emitter;
+  uint32_t first = 0, count = 0, words = 0, accumulate = 0, map_size = 0, random = 0;
+  float radius2_scale = 1, weight = 1, alpha = 0;
 };
 
 // PDFs on both halves as mip pyramids (shaders/pyramid.glsl), apart from the scratch memory that every frame
@@ -54,11 +82,11 @@ class Stage {
   ScratchPool scratch;
   SceneGpu geometry;
   DeferredTargets& targets(Half half, uint32_t width, uint32_t height);
-  ImperfectShadowMaps& shadow_maps(const IsmParameters& parameters);
+  ImperfectShadowMaps& shadow_maps(Visibility technique, const IsmParameters& parameters);
 
  private:
   std::map<std::string, std::unique_ptr<DeferredTargets>> targets_;
-  std::map<std::pair<uint32_t, uint32_t>, std::unique_ptr<ImperfectShadowMaps>> shadow_maps_;
+  std::map<std::tuple<Visibility, uint32_t, uint32_t>, std::unique_ptr<ImperfectShadowMaps>> shadow_maps_;
 };
 
 class Frame {
@@ -81,11 +109,13 @@ class Frame {
 
   // Results of the last render(); the lights also those of the last generate_only().
   Image indirect() const;
+  ShadingNotes shading_notes() const;
   std::vector<uint8_t> surface_mask() const;  // 1 where the camera sees a surface
   LightKind light_kind() const { return method_->kind(); }
   uint32_t light_count() const { return light_count_; }
-  std::vector<gpu::Vsgl> vsgls() const;  // empty when the lights are VPLs
+  std::vector<gpu::Vsgl> vsgls() const;  // empty when the lights are VPLs or VSLs
   std::vector<gpu::Vpl> vpls() const;
+  LightShapes light_shapes() const { return method_->shapes(Half::rsm); }
   std::vector<float> importance() const;  // the PDF on the RSM, of any scale; empty when unused
   const DeferredTargets& gbuffer() const { return *gbuffer_; }
   const DeferredTargets& rsm() const { return *rsm_; }
@@ -104,23 +134,36 @@ class Frame {
 
  private:
   void draw_halves(Recorder& recorder);
+  // One set of lights and its share of the image. Iteration 0 draws the halves, too.
+  void render_iteration(uint32_t seed, uint32_t iteration, FrameTimes* times);
+  void trace_visibility();
   void make_importance(Recorder& recorder, glm::uvec2 shift);
+  void reflectance_pdf(Recorder& recorder, Half half);
   void build_pdf_mips(Recorder& recorder, const Buffer& pdf, uint32_t width, uint32_t height);
   // Both halves' lights, by the method under test, on `pdf`, which may be null where it uses none.
   void generate_importance_lights(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift);
   void generate_lights(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift);
-  void generate(Recorder& recorder, const Field& field, const LightTarget& target);
-  void shade(Recorder& recorder);
+  void generate(Recorder& recorder, Method& method, const Field& field, const LightTarget& target);
+  // Bias reduction and unfiltered lobes need a texel for each light.
+  bool needs_light_texels() const;
+  const Buffer& light_texels(Recorder& recorder);
+  void shade(Recorder& recorder, uint32_t seed, uint32_t iteration);
   uint32_t upload_bits(uint32_t words, std::vector<const Buffer*>* buffers);
   std::vector<LightPoint> light_points() const;
   Buffer& pdf_buffer(Half half);
-  Buffer& light_buffer(Half half, uint32_t count);
+  Buffer& light_buffer(Half half) const;
+  Method& importance_method() const { return other_method_ ? *other_method_ : *method_; }
+  bool uses_importance() const { return method_->uses_importance(); }
+  // Whether lights on the G-buffer make the PDF.
+  bool lights_gbuffer() const { return uses_importance() && parameters_.importance != Importance::flux; }
   Field field(Half half, const Buffer* pdf);
 
   Stage& stage_;
   FrameParameters parameters_;
   MethodContext context_;
   std::unique_ptr<Method> method_;
+  std::unique_ptr<MethodContext> other_context_;
+  std::unique_ptr<Method> other_method_;  // of the importance, where that is not method_
   ExactVisibility exact_;
   Recorder recorder_;
   DeferredTargets *gbuffer_, *rsm_;

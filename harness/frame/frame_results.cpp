@@ -61,6 +61,36 @@ Image Frame::indirect() const {
   return image;
 }
 
+ShadingNotes Frame::shading_notes() const {
+  ShadingNotes notes;
+  const size_t pixels = size_t(camera_.width) * camera_.height;
+  const auto shaded = stage_.scratch.get("indirect", pixels * sizeof(glm::vec4)).download<glm::vec4>(pixels);
+  const auto lights = vpls();
+  const bool clamped = std::any_of(lights.begin(), lights.end(), [](const auto& l) { return l.clamp > 0; });
+  if (clamped) {
+    double removed = 0, kept = 0;
+    for (const glm::vec4& s : shaded) {
+      removed += s.a;
+      kept += glm::dot(glm::dvec3(s), glm::dvec3(0.2126, 0.7152, 0.0722));
+    }
+    notes.clamp_removed = removed > 0 ? removed / (removed + kept) : 0;
+  }
+  if (method_->kind() != LightKind::vsgl || parameters_.bias_reduction == 0) return notes;
+  const auto all = vsgls();
+  const auto powered = std::count_if(all.begin(), all.end(), [](const auto& l) { return l.power > 0; });
+  const auto mask = surface_mask();
+  Image rate(camera_.width, camera_.height);
+  double sum = 0;
+  for (size_t i = 0; i < pixels; ++i) {
+    rate.pixels[i] = glm::vec3(powered > 0 ? shaded[i].a / static_cast<float>(powered) : 0);
+    sum += rate.pixels[i].r;
+  }
+  const auto seen = std::count(mask.begin(), mask.end(), 1);
+  notes.cancellation_rate = seen > 0 ? sum / static_cast<double>(seen) : 0;
+  notes.cancellation = std::move(rate);
+  return notes;
+}
+
 std::vector<uint8_t> Frame::surface_mask() const {
   const auto position = download_map(gbuffer_->maps[0]);
   std::vector<uint8_t> mask(position.size());
@@ -70,16 +100,16 @@ std::vector<uint8_t> Frame::surface_mask() const {
 
 std::vector<gpu::Vsgl> Frame::vsgls() const {
   if (method_->kind() != LightKind::vsgl) return {};
-  return const_cast<Frame*>(this)->light_buffer(Half::rsm, light_count_).download<gpu::Vsgl>(light_count_);
+  return light_buffer(Half::rsm).download<gpu::Vsgl>(light_count_);
 }
 
 std::vector<gpu::Vpl> Frame::vpls() const {
-  if (method_->kind() != LightKind::vpl) return {};
-  return const_cast<Frame*>(this)->light_buffer(Half::rsm, light_count_).download<gpu::Vpl>(light_count_);
+  if (method_->kind() == LightKind::vsgl) return {};
+  return light_buffer(Half::rsm).download<gpu::Vpl>(light_count_);
 }
 
 std::vector<float> Frame::importance() const {
-  if (!method_->uses_importance()) return {};
+  if (!uses_importance()) return {};
   return const_cast<Frame*>(this)->pdf_buffer(Half::rsm).download<float>(size_t(light_.width) *
                                                                          light_.height);
 }
@@ -101,17 +131,16 @@ std::string Frame::first_bad_pass() const {
 
 LightHealth Frame::light_health() const {
   LightHealth health;
-  const bool vpl = method_->kind() == LightKind::vpl;
-  const auto check_half = [&](Half half, uint32_t count, const char* pass) {
-    const Buffer& lights = const_cast<Frame*>(this)->light_buffer(half, count);
-    if (vpl) {
-      check(lights.download<gpu::Vpl>(count), pass, &health);
-    } else {
+  const auto check_half = [&](Half half, const Method& method, uint32_t count, const char* pass) {
+    const Buffer& lights = light_buffer(half);
+    if (method.kind() == LightKind::vsgl) {
       check(lights.download<gpu::Vsgl>(count), pass, &health);
+    } else {
+      check(lights.download<gpu::Vpl>(count), pass, &health);
     }
   };
-  if (method_->uses_importance()) check_half(Half::gbuffer, importance_count_, "generate.gbuffer");
-  check_half(Half::rsm, light_count_, "generate.rsm");
+  if (lights_gbuffer()) check_half(Half::gbuffer, importance_method(), importance_count_, "generate.gbuffer");
+  check_half(Half::rsm, *method_, light_count_, "generate.rsm");
   return health;
 }
 

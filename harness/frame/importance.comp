@@ -21,7 +21,8 @@ void main() {
   bool surface = load_texel(emitter, ivec2(at), t);
   vec3 sum = vec3(0.0);
   Shader shader = make_shader(t.surface);
-  for (uint k = first; k < first + count; ++k) sum += shade_light(shader, lights[k]);
+  float removed = 0.0;
+  for (uint k = first; k < first + count; ++k) sum += shade_light(shader, lights[k], 0u, removed);
   float p = luminance(t.flux * sum);
   p = surface && p > 0.0 && p < 3e38 ? p : 0.0;
   pdf[i] = first > 0u ? pdf[i] + p : p;

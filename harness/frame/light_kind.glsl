@@ -1,24 +1,33 @@
-// Lights of either kind as shading sees them. LIGHT_VPL 1: Vpl, 0: Vsgl.
-#include "vsgl_shading.glsl"
-
+// Lights as shading sees them. LIGHT_VPL 1: Vpl records, 0: Vsgl. LIGHT_VSL 1: the Vpl records are virtual spherical
+// lights.
 #if LIGHT_VPL
+#include "brdf.glsl"
+#include "vpl_shading.glsl"
 #define Light Vpl
 #define Shader Surface
 Shader make_shader(Surface s) { return s; }
-
-// Φ f(x2) f(x1) cos cos / d² [VSGL14 Eq. 1].
-vec3 shade_light(Shader s, Vpl light) {
-  vec3 to_light = light.position - s.position;
-  float distance2 = dot(to_light, to_light);
-  if (light.power <= 0.0 || distance2 <= 0.0) return vec3(0.0);
-  vec3 direction = to_light * inversesqrt(distance2);
-  Surface emitter = Surface(light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
-                            light.f0, light.ndf);
-  return light.flux * brdf_cosine(emitter, -direction) * brdf_cosine(s, direction) / distance2;
-}
 #else
+#include "vsgl_shading.glsl"
 #define Light Vsgl
 #define Shader Receiver
 Shader make_shader(Surface s) { return make_receiver(s); }
-vec3 shade_light(Shader r, Vsgl light) { return shade_vsgl(r, light); }
 #endif
+
+#ifndef LIGHT_VSL
+#define LIGHT_VSL 0
+#endif
+#if LIGHT_VSL
+#include "vsl_shading.glsl"
+#endif
+
+// Reflected radiance. `random`: a word of this pixel's and light's own, for lights whose integral is sampled.
+// `removed`: luminance that a clamp took away is added.
+vec3 shade_light(Shader s, Light light, uint random, inout float removed) {
+#if LIGHT_VSL
+  return shade_vsl(s, light, random);
+#elif LIGHT_VPL
+  return shade_vpl(s, light, removed);
+#else
+  return shade_vsgl(s, light);
+#endif
+}

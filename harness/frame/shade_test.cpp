@@ -1,4 +1,4 @@
-// shade.comp against a double-precision transcription of [MFIS16 App. C] and [VSGL14 Eq. 1] on random inputs.
+// shade.comp against shaders/shading_exact.h on random inputs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,70 +6,13 @@
 
 #include "base/file.h"
 #include "frame/frame.h"
+#include "shaders/shading_exact.h"
 
 using namespace vsglbench;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 using glm::dvec3;
-
-struct Pixel {
-  dvec3 position, normal, geometric, view, diffuse, f0;
-  double ndf;
-};
-
-dvec3 fresnel(const dvec3& f0, double c) {
-  const double f90 = std::min(1.0, 50 * std::max({f0.x, f0.y, f0.z}));
-  return f0 + (dvec3(f90) - f0) * std::pow(1 - std::clamp(c, 0.0, 1.0), 5);
-}
-// G2/(4 nl nv) by Heitz's Λ.
-double smith(double nl, double nv, double a) {
-  const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1 + a * a * (1 / (c * c) - 1)) - 1); };
-  return nl > 0 && nv > 0 ? 1 / ((1 + lambda(nl) + lambda(nv)) * 4 * nl * nv) : 0;
-}
-double masking_alpha(double ndf) { return ndf > 0 ? ndf : std::sqrt(2 / (2 - ndf)); }
-
-dvec3 brdf_cosine(const Pixel& s, const dvec3& l) {
-  const double nl = glm::dot(s.normal, l), nv = glm::dot(s.normal, s.view);
-  if (nl <= 0 || nv <= 0 || glm::dot(s.geometric, l) <= 0) return dvec3(0);
-  const dvec3 h = glm::normalize(l + s.view);
-  const double nh = glm::dot(s.normal, h);
-  double d;
-  if (s.ndf > 0) {
-    const double a2 = s.ndf * s.ndf;
-    d = a2 / (kPi * std::pow(nh * nh * (a2 - 1) + 1, 2));
-  } else {
-    d = (2 - s.ndf) / (2 * kPi) * std::pow(nh, -s.ndf);
-  }
-  return (s.diffuse / kPi + d * smith(nl, nv, masking_alpha(s.ndf)) * fresnel(s.f0, glm::dot(l, h))) * nl;
-}
-
-// The paper's chain, with the naive exponents that double precision can afford.
-dvec3 shade_lobe(const Pixel& s, const dvec3& amplitude, const dvec3& axis, double sharpness,
-                 const dvec3& mean, double variance) {
-  const dvec3 to = mean - s.position;
-  const double d2 = glm::dot(to, to), spread = d2 / variance;  // Eq. (11)
-  const dvec3 sum = spread * glm::normalize(to) - sharpness * axis;
-  const double in = glm::length(sum);
-  const dvec3 xi = sum / in;
-  const dvec3 c = amplitude / (2 * kPi * variance) * std::exp(in - sharpness - spread);  // Eq. (12)
-  const double nl = std::max(glm::dot(xi, s.normal), 0.0), nv = std::max(glm::dot(s.normal, s.view), 0.01);
-  const double area = 2 * kPi * -std::expm1(-2 * in) / in;
-  const dvec3 diffuse = c * s.diffuse / kPi * area * nl;
-
-  const double h = s.ndf > 0 ? 2 / (s.ndf * s.ndf) : -s.ndf, nu = in / 2;
-  const double peak = s.ndf > 0 ? 1 / (kPi * s.ndf * s.ndf) : (2 - s.ndf) / (2 * kPi);
-  const double ex = h / (8 * nv * nv), ey = h / 8;
-  const dvec3 z = 2 * glm::dot(s.view, s.normal) * s.normal - s.view;
-  const dvec3 y = glm::normalize(glm::cross(s.normal, s.view)), x = glm::cross(y, z);
-  const double g =
-      std::max(glm::dot(xi, z), 0.0) * std::exp(-ex * nu / (ex + nu) * std::pow(glm::dot(xi, x), 2) -
-                                                ey * nu / (ey + nu) * std::pow(glm::dot(xi, y), 2));
-  const double vh = std::sqrt(std::max(0.5 + 0.5 * glm::dot(xi, s.view), 0.0));
-  const dvec3 factor = peak * smith(nl, nv, masking_alpha(s.ndf)) * nl * fresnel(s.f0, vh);  // C(ξ)
-  return diffuse + c * factor * (kPi * g / std::sqrt((ex + nu) * (ey + nu)));
-}
 
 // A G-buffer of random surfaces, as images on the device and in double.
 class ShadeTest : public ::testing::Test {
@@ -127,17 +70,15 @@ class ShadeTest : public ::testing::Test {
   }
 
   template <class Light>
-  std::vector<glm::vec4> shade(const std::vector<Light>& lights, const char* is_vpl) {
+  std::vector<glm::vec4> shade(const std::vector<Light>& lights, const char* is_vpl,
+                               ShaderDefines defines = {}) {
     KernelLibrary kernels(device());
-    const Kernel& kernel = kernels.get(data_root() / "harness" / "frame" / "shade.comp",
-                                       {{"LIGHT_VPL", is_vpl}, {"VISIBILITY", "0"}});
+    defines.insert({{"LIGHT_VPL", is_vpl}, {"VISIBILITY", "0"}});
+    const Kernel& kernel = kernels.get(data_root() / "harness" / "frame" / "shade.comp", defines);
     Buffer light_buffer(device(), "lights", lights.size() * sizeof(Light));
     light_buffer.upload(std::span<const Light>(lights));
     Buffer out(device(), "out", pixels_.size() * sizeof(glm::vec4));
-    const struct {
-      gpu::Emitter emitter;
-      uint32_t first, count, words, accumulate, map_size;
-    } push{camera_, 0, static_cast<uint32_t>(lights.size()), 0, 0, 0};
+    const ShadePush push{.emitter = camera_, .count = static_cast<uint32_t>(lights.size())};
     Recorder recorder(device());
     recorder.begin();
     recorder.pass("shade", [&] {
@@ -164,7 +105,7 @@ class ShadeTest : public ::testing::Test {
 
   std::mt19937 random_;
   gpu::Emitter camera_{};
-  std::vector<Pixel> pixels_;
+  std::vector<exact::Surface> pixels_;
   std::vector<DeviceImage> images_;
 };
 
@@ -183,16 +124,17 @@ TEST_F(ShadeTest, VsglsMatchDouble) {
     l.specular_axis = direction();
     l.power = 1;
   }
-  std::vector<dvec3> host(pixels_.size(), dvec3(0));
-  for (size_t i = 0; i < pixels_.size(); ++i) {
-    for (const auto& l : lights) {
-      host[i] += shade_lobe(pixels_[i], l.diffuse, glm::normalize(dvec3(l.diffuse_axis)), l.diffuse_sharpness,
-                            l.mean, l.variance);
-      host[i] += shade_lobe(pixels_[i], l.specular, glm::normalize(dvec3(l.specular_axis)),
-                            l.specular_sharpness, l.mean, l.variance);
+  const auto host = [&](const exact::VsglShading& shading) {
+    std::vector<dvec3> sums(pixels_.size(), dvec3(0));
+    for (size_t i = 0; i < pixels_.size(); ++i) {
+      for (const auto& l : lights) sums[i] += exact::shade_vsgl(pixels_[i], l, shading);
     }
-  }
-  EXPECT_LT(worst(shade(lights, "0"), host), 1e-4);
+    return sums;
+  };
+  EXPECT_LT(worst(shade(lights, "0"), host({})), 1e-4);
+  EXPECT_LT(worst(shade(lights, "0", {{"VARIANCE", "1"}}), host({.disk = true})), 1e-4);
+  EXPECT_LT(worst(shade(lights, "0", {{"DIFFUSE_KERNEL", "4"}}), host({exact::DiffuseKernel::tokuyoshi2024})),
+            1e-4);
 }
 
 TEST_F(ShadeTest, VplsMatchDouble) {
@@ -210,17 +152,7 @@ TEST_F(ShadeTest, VplsMatchDouble) {
   }
   std::vector<dvec3> host(pixels_.size(), dvec3(0));
   for (size_t i = 0; i < pixels_.size(); ++i) {
-    for (const auto& l : lights) {
-      const dvec3 to = dvec3(l.position) - pixels_[i].position, w = glm::normalize(to);
-      const Pixel emitter{l.position,
-                          glm::normalize(dvec3(l.normal)),
-                          l.geometric_normal,
-                          glm::normalize(dvec3(l.incident)),
-                          l.diffuse,
-                          l.f0,
-                          l.ndf};
-      host[i] += dvec3(l.flux) * brdf_cosine(emitter, -w) * brdf_cosine(pixels_[i], w) / glm::dot(to, to);
-    }
+    for (const auto& l : lights) host[i] += exact::shade_vpl(pixels_[i], l);
   }
   EXPECT_LT(worst(shade(lights, "1"), host), 1e-4);
 }

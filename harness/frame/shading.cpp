@@ -9,6 +9,14 @@ namespace vsglbench {
 
 const std::vector<ShadingAxis>& shading_axes() {
   static const std::vector<ShadingAxis> axes = {
+      {"shading",
+       "SHADING_MODEL",
+       {"vsgl16", "vsgl14"},
+       "products of a light's SGs [MFIS16 App. C], or triple products with the disk's solid angle [VSGL14 §3.1]"},
+      {"lobe_filter",
+       "LOBE_FILTER",
+       {"on", "off"},
+       "whether a light's specular lobe is its texels' filtered one, or that of one of them [VSGL14 Fig. 3]"},
       {"diffuse",
        "DIFFUSE_KERNEL",
        {"cosine", "pettineo-hill", "meder-bruederlin", "tokuyoshi2022", "tokuyoshi2024"},

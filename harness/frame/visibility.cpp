@@ -10,15 +10,18 @@
 
 namespace vsglbench {
 
-const char* visibility_name(Visibility v) {
-  return v == Visibility::none ? "none" : v == Visibility::exact ? "exact" : "ism";
+const std::vector<std::string>& visibility_names() {
+  static const std::vector<std::string> names = {"none", "exact", "ism", "aism", "tism"};
+  return names;
 }
 
+std::string visibility_name(Visibility v) { return visibility_names()[static_cast<size_t>(v)]; }
+
 Visibility parse_visibility(const std::string& name) {
-  for (const Visibility v : {Visibility::none, Visibility::exact, Visibility::ism}) {
-    if (name == visibility_name(v)) return v;
-  }
-  throw fail(ErrorKind::config, "no visibility '{}'{}", name, suggestion(name, {"none", "exact", "ism"}));
+  const auto& names = visibility_names();
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it != names.end()) return static_cast<Visibility>(it - names.begin());
+  throw fail(ErrorKind::config, "no visibility '{}'{}", name, suggestion(name, names));
 }
 
 namespace {
@@ -49,8 +52,12 @@ std::vector<glm::vec4> surface_points(const Scene& scene, uint32_t count) {
 }  // namespace
 
 ImperfectShadowMaps::ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene,
-                                         IsmParameters parameters)
-    : kernels_(kernels), scratch_(scratch), parameters_(parameters), pool_(1u << 20) {
+                                         Visibility technique, IsmParameters parameters)
+    : kernels_(kernels),
+      scratch_(scratch),
+      technique_(technique),
+      parameters_(parameters),
+      pool_(1u << 20) {
   const auto points = surface_points(scene, pool_);
   points_ = Buffer(kernels.device(), "ism points", points.size() * sizeof(glm::vec4));
   points_.upload(std::span<const glm::vec4>(points));
@@ -61,13 +68,13 @@ Buffer& ImperfectShadowMaps::level(uint32_t size, uint32_t count) {
 }
 
 ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const Buffer& lights, LightKind kind,
-                                                     uint32_t count) {
+                                                     uint32_t count, const DeferredTargets& /*seen*/) {
   const auto folder = data_root() / "harness" / "frame";
   const uint32_t size = parameters_.size;
   Buffer& frames = scratch_.get("ism frames", size_t(count) * 32);
   Buffer& maps = level(size, count);
   const Kernel& make_frames =
-      kernels_.get(folder / "ism_frames.comp", {{"LIGHT_VPL", kind == LightKind::vpl ? "1" : "0"}});
+      kernels_.get(folder / "ism_frames.comp", {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"}});
   const Kernel& splat = kernels_.get(folder / "ism_splat.comp");
   recorder.pass("visibility.ism.splat", [&] {
     recorder.fill(maps, 0x7F800000u);

@@ -6,14 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "frame/scene_gpu.h"
 #include "method/method.h"
 #include "scene/scene.h"
 
 namespace vsglbench {
 
-enum class Visibility { none, exact, ism };
+//  none   no test between light and pixel
+//  exact  shadow rays on the host
+//  ism    imperfect shadow maps (Ritschel et al. 2008)
+//  aism   the same with points chosen for each map and the view (Ritschel et al. 2011)
+//  tism   the same with tessellated triangles for points (Barák et al. 2013)
+enum class Visibility { none, exact, ism, aism, tism };
+const std::vector<std::string>& visibility_names();  // in the order of the enumeration
 Visibility parse_visibility(const std::string& name);  // throws Error(config)
-const char* visibility_name(Visibility v);
+std::string visibility_name(Visibility v);
+inline bool has_shadow_maps(Visibility v) { return v >= Visibility::ism; }
 
 // Where a shadow ray ends: `stop_short` metres before `position`. For a VSGL that is its mean, one standard
 // deviation before it, since the mean of a curved cluster lies inside the solid.
@@ -34,19 +42,23 @@ struct IsmParameters {
 // Imperfect shadow maps of all lights (Ritschel et al. 2008), as passes visibility.ism.*.
 class ImperfectShadowMaps {
  public:
-  ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene,
+  // `technique`: one that has shadow maps.
+  ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene, Visibility technique,
                       IsmParameters parameters);
   struct Maps {
     const Buffer *depth, *frames;
     uint32_t size;
   };
-  Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count);
+  // `seen`: what the camera sees, for techniques that adapt to it.
+  Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count,
+             const DeferredTargets& seen);
 
  private:
   void fill_holes(Recorder& recorder, uint32_t count);
   Buffer& level(uint32_t size, uint32_t count);
   KernelLibrary& kernels_;
   ScratchPool& scratch_;
+  Visibility technique_;
   IsmParameters parameters_;
   Buffer points_;
   uint32_t pool_ = 0;

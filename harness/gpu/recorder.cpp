@@ -56,10 +56,9 @@ void Recorder::pass(const std::string& name, const std::function<void()>& record
   if (device_.end_label) device_.end_label(commands_);
 }
 
-void Recorder::dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const void* push,
+void Recorder::dispatch(const Kernel& kernel, std::span<const Binding> bindings, const void* push,
                         size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
-  kernel.dispatch(commands_, descriptors_, {bindings.begin(), bindings.size()}, push, push_bytes, groups_x,
-                  groups_y, groups_z);
+  kernel.dispatch(commands_, descriptors_, bindings, push, push_bytes, groups_x, groups_y, groups_z);
   if (groups_x && groups_y && groups_z) ++dispatches_;
 }
 

@@ -39,13 +39,18 @@ class Recorder {
   // Everything `record` records belongs to pass `name`. Passes don't nest.
   void pass(const std::string& name, const std::function<void()>& record);
   // Inside a pass. Later dispatches see what earlier ones wrote only after barrier().
-  void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const void* push,
-                size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
+  void dispatch(const Kernel& kernel, std::span<const Binding> bindings, const void* push, size_t push_bytes,
+                uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
+  template <class Push>
+  void dispatch(const Kernel& kernel, std::span<const Binding> bindings, const Push& push, uint32_t groups_x,
+                uint32_t groups_y = 1, uint32_t groups_z = 1) {
+    static_assert(sizeof(Push) <= 128 && std::is_trivially_copyable_v<Push>);
+    dispatch(kernel, bindings, &push, sizeof push, groups_x, groups_y, groups_z);
+  }
   template <class Push>
   void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const Push& push,
                 uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1) {
-    static_assert(sizeof(Push) <= 128 && std::is_trivially_copyable_v<Push>);
-    dispatch(kernel, bindings, &push, sizeof push, groups_x, groups_y, groups_z);
+    dispatch(kernel, std::span(bindings.begin(), bindings.size()), push, groups_x, groups_y, groups_z);
   }
   void barrier();
   void fill(const Buffer& buffer, uint32_t word);  // every 32-bit word

@@ -1,6 +1,7 @@
 #include "method/filtered_sampling.h"
 
 #include <algorithm>
+#include <map>
 
 namespace vsglbench {
 
@@ -53,8 +54,12 @@ namespace {
 
 class FilteredSampling : public Method {
  public:
-  FilteredSampling(MethodContext& context, const std::string& file, float kernel_size)
-      : pyramid_(context), sample_(context.kernel(file)), kernel_size_(kernel_size) {}
+  FilteredSampling(MethodContext& context, const std::string& file, float kernel_size,
+                   const ShaderDefines& defines)
+      : context_(context),
+        pyramid_(context),
+        sample_(context.kernel(file, defines)),
+        kernel_size_(kernel_size) {}
 
   LightKind kind() const override { return LightKind::vsgl; }
 
@@ -67,12 +72,20 @@ class FilteredSampling : public Method {
         float kernel_size;
       } push{field.emitter.width,        field.emitter.height, target.count,
              lattice_step(target.count), target.shift,         kernel_size_};
-      steps.recorder().dispatch(sample_, {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer},
-                                push, groups_for(target.count, 64));
+      Buffer& squares = context_.scratch(fmt::format("squares.{}", half_name(field.half)),
+                                         target.count * sizeof(glm::vec4));
+      squares_[field.half] = &squares;
+      steps.recorder().dispatch(
+          sample_, {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer, squares}, push,
+          groups_for(target.count, 64));
     });
   }
 
+  LightShapes shapes(Half half) override { return {.squares = squares_[half]}; }
+
  private:
+  MethodContext& context_;
+  std::map<Half, const Buffer*> squares_;
   MomentPyramid pyramid_;
   const Kernel& sample_;
   float kernel_size_;
@@ -81,8 +94,8 @@ class FilteredSampling : public Method {
 }  // namespace
 
 std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
-                                               float kernel_size) {
-  return std::make_unique<FilteredSampling>(context, kernel_file, kernel_size);
+                                               float kernel_size, const ShaderDefines& defines) {
+  return std::make_unique<FilteredSampling>(context, kernel_file, kernel_size, defines);
 }
 
 }  // namespace vsglbench

@@ -1,6 +1,7 @@
 #include "method/kmeans.h"
 
 #include <bit>
+#include <map>
 
 namespace vsglbench {
 namespace {
@@ -39,6 +40,11 @@ class KMeans : public Method {
     }
     // 4. Each cluster's total.
     steps.pass("sum", [&] { sum_.record(r, field, sorted, target); });
+    sorted_[field.half] = sorted;
+  }
+
+  LightShapes shapes(Half half) override {
+    return {.ids = sorted_[half].ids, .texels = sorted_[half].texels};
   }
 
  private:
@@ -81,6 +87,7 @@ class KMeans : public Method {
   RadixSort sort_;
   ClusterSum sum_;
   const Kernel* move_ = nullptr;
+  std::map<Half, ClusterSum::SortedTexels> sorted_;
 };
 
 }  // namespace

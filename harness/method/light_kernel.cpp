@@ -10,7 +10,7 @@ class LightKernel : public Method {
  public:
   LightKernel(MethodContext& context, const std::string& file, LightKind kind,
               const std::vector<float>& parameters)
-      : kernel_(context.kernel(file, {{"LIGHT", kind == LightKind::vpl ? "Vpl" : "Vsgl"}})), kind_(kind) {
+      : kernel_(context.kernel(file, {{"LIGHT", kind == LightKind::vsgl ? "Vsgl" : "Vpl"}})), kind_(kind) {
     if (parameters.size() > parameters_.size()) throw std::logic_error("a light kernel takes 4 parameters");
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
   }

@@ -20,7 +20,8 @@
 namespace vsglbench {
 
 enum class Half { gbuffer, rsm };
-enum class LightKind { vsgl, vpl };
+// vsl: Vpl records with a radius, virtual spherical lights.
+enum class LightKind { vsgl, vpl, vsl };
 
 inline const char* half_name(Half half) { return half == Half::gbuffer ? "gbuffer" : "rsm"; }
 inline size_t light_stride(LightKind kind) {
@@ -79,6 +80,15 @@ class Steps {
   std::string prefix_;
 };
 
+// Which texels of a half its lights stand for, for pictures and statistics; null where that is not defined.
+struct LightShapes {
+  // A vec4 a light: centre x, y and side of its filtering kernel in texels; side 0: no light.
+  const Buffer* squares = nullptr;
+  // Of a partition, two uints a texel: the light it belongs to (at least the number of lights: none), and its
+  // y * width + x; `texels` null: in the order of the texels.
+  const Buffer *ids = nullptr, *texels = nullptr;
+};
+
 // One method with fixed parameters. Made once a case, used for every frame of it.
 class Method {
  public:
@@ -88,6 +98,8 @@ class Method {
   // How many lights it makes from a half of `texels` texels when asked for `wanted`.
   virtual uint32_t light_count(uint32_t wanted, uint64_t /*texels*/) const { return wanted; }
   virtual void generate(Steps& steps, const Field& field, const LightTarget& target) = 0;
+  // Of the last generate() of that half, once the device has finished it.
+  virtual LightShapes shapes(Half) { return {}; }
 };
 
 // A parameter of one method, beyond those every case has.
@@ -102,9 +114,10 @@ struct ParameterInfo {
 struct MethodInfo {
   std::string summary;            // one line
   std::string source;             // paper, section
-  bool takes_light_count = true;  // false: the number of lights follows from the RSM
-  // The parameters with which it makes VPLs: {} always, null never, {{"shading", "exact"}} where that is set.
-  // With all others it makes VSGLs, and a config's shading keys are read.
+  bool takes_light_count = true;  // false: a config's N is not read
+  uint32_t light_count = 0;       // then this many; 0: one a texel
+  // The parameters with which it makes VPLs or VSLs: {} always, null never, {{"shading", "exact"}} where that is
+  // set. With all others it makes VSGLs, and a config's shading keys are read.
   Json makes_vpls;
   std::vector<ParameterInfo> parameters;
   // Optional features that the device must have, as `vsglbench list devices` names them.

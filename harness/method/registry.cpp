@@ -140,6 +140,7 @@ MethodInfo from_json(const Json& j, const fs::path& library) {
   info.summary = j.at("summary");
   info.source = j.at("source");
   info.takes_light_count = j.at("takes_light_count");
+  info.light_count = j.at("light_count");
   info.makes_vpls = j.at("makes_vpls");
   info.device_features = j.at("device_features");
   info.flux_bound = j.at("flux_bound");
@@ -306,6 +307,7 @@ Json to_json(const MethodInfo& method) {
             {"summary", method.summary},
             {"source", method.source},
             {"takes_light_count", method.takes_light_count},
+            {"light_count", method.light_count},
             {"makes_vpls", method.makes_vpls},
             {"parameters", std::move(parameters)},
             {"device_features", method.device_features},

@@ -79,6 +79,12 @@ struct GenerateResult {
   uint64_t shaders = 0, dispatches = 0, memory_bytes = 0;
 };
 
+// What shading reported beside the image, of seed 0; a field is absent where the case does not have it.
+struct ShadingResult {
+  std::optional<double> clamp_removed;      // luminance that the lights' clamp took away / luminance without it
+  std::optional<double> cancellation_rate;  // mean share of lights shaded with exact BRDFs [VSGL14 §3.3, Fig. 6]
+};
+
 // A metric's mean over seeds. Without a value (a black reference) `undefined` says why.
 struct MetricResult {
   std::optional<double> value;
@@ -162,6 +168,7 @@ struct CaseResult {
   std::vector<PassTiming> passes;
   std::optional<FrameTiming> frame;
   std::optional<GenerateResult> generate;
+  std::optional<ShadingResult> shading;
   std::optional<Accuracy> accuracy;
   std::vector<SeedResult> seeds;
   std::optional<Temporal> temporal;

@@ -87,6 +87,11 @@ void fields(auto& a, Is<GenerateResult> auto& v) {
   a("memory_bytes", v.memory_bytes);
 }
 
+void fields(auto& a, Is<ShadingResult> auto& v) {
+  a("clamp_removed", v.clamp_removed);
+  a("cancellation_rate", v.cancellation_rate);
+}
+
 void fields(auto& a, Is<Stopping> auto& v) {
   a("reason", v.reason);
   a("frames", v.frames);
@@ -177,6 +182,7 @@ void fields(auto& a, Is<CaseResult> auto& v) {
   a.unless_empty("passes", v.passes);
   a("frame", v.frame);
   a("generate", v.generate);
+  a("shading", v.shading);
   a("stopping", v.stopping);
   a("accuracy", v.accuracy);
   a.unless_empty("seeds", v.seeds);

@@ -60,6 +60,7 @@ void CaseRun::announce(bool limited) const {
 void CaseRun::conclude() {
   concluded_ = true;
   first_image_.reset();
+  cancellation_.reset();
   mask_ = {};
   if (!frame_) return;
   action_ = "closing";
@@ -138,6 +139,7 @@ void CaseRun::score(uint32_t seed) {
   check_health_of(image);
   check_lights();
   if (seed == 0) describe_lights();
+  if (seed == 0) describe_shading();
   const Errors errors = measure_errors(image, input_.reference->mean, mask_);
   if (seed == 0) {
     quantiles_ = error_quantiles(image, input_.reference->mean, mask_);
@@ -210,6 +212,13 @@ void CaseRun::describe_lights() {
   if (generate.empty == generate.lights) {
     log_warning("{}: no light carries power; the method found no texel that matters to the camera", case_.id);
   }
+}
+
+void CaseRun::describe_shading() {
+  ShadingNotes notes = frame_->shading_notes();
+  if (notes.clamp_removed || notes.cancellation_rate)
+    result_.shading = ShadingResult{notes.clamp_removed, notes.cancellation_rate};
+  cancellation_ = std::move(notes.cancellation);
 }
 
 CaseResult CaseRun::result() const {

@@ -58,6 +58,7 @@ class CaseRun {
   CaseResult result() const;
   const Case& description() const { return case_; }
   const std::optional<Image>& image() const { return first_image_; }  // of seed 0
+  const std::optional<Image>& cancellation() const { return cancellation_; }  // ShadingNotes, of seed 0
   const ReferenceResult* reference() const { return input_.reference; }
   const Mask& mask() const {
     return mask_;
@@ -77,6 +78,7 @@ class CaseRun {
   void check_lights();
   void record(const FrameTimes& times);
   void describe_lights();
+  void describe_shading();
 
   Case case_;
   const Config& config_;
@@ -91,7 +93,7 @@ class CaseRun {
   std::vector<double> span_ms_;
   std::vector<SeedResult> seeds_;
   std::optional<ErrorQuantiles> quantiles_;
-  std::optional<Image> first_image_;
+  std::optional<Image> first_image_, cancellation_;
   Mask mask_;
   std::optional<StopReason> reason_;
   uint64_t warmups_ = 0;

@@ -113,7 +113,8 @@ void read_reference(const JsonDocument& doc, Config* config) {
 // What only an image is judged with is refused where there is none.
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
-  std::vector<std::string> unread = {"seeds", "reference", "visibility", "ism"};
+  std::vector<std::string> unread = {"seeds",      "reference",  "visibility",    "ism",
+                                     "importance", "iterations", "bias_reduction"};
   for (const ShadingAxis& axis : shading_axes()) unread.push_back(axis.key);
   for (const auto& key : unread) {
     if (doc.root().contains(key))
@@ -131,7 +132,8 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
               {"methods", root.at("methods")},
               {"frame", {{"width", base.width}, {"height", base.height}}}};
   for (const auto& [key, value] : case_defaults().items()) {
-    const bool shades = key == "visibility" || is_shading_key(key);
+    const bool shades = key == "visibility" || key == "importance" || key == "iterations" ||
+                        key == "bias_reduction" || is_shading_key(key);
     if (!shades || !generation) out[key] = root.value(key, value);
   }
   if (!generation) {
@@ -170,6 +172,9 @@ fs::path config_path(const std::string& name_or_path) {
 
 Config load_config(const fs::path& path) {
   const JsonDocument doc = JsonDocument::load(path, ErrorKind::config);
+  if (doc.root().is_object() && doc.root().contains("figure")) {
+    throw doc.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`", path.stem().string()));
+  }
   check_schema(doc, config_schema());
   const Json& root = doc.root();
   Config config;

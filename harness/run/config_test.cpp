@@ -55,8 +55,8 @@ TEST_F(ConfigTest, AMethodsOwnListsAndWhatItNamesAreInTheId) {
                         {{"method", "vpl"}, {"importance_lights", {16, 64}}}};
   EXPECT_EQ(ids(), (std::vector<std::string>{"cornell/all-texels/rsm=16,vis=exact,shading=exact",
                                              "cornell/all-texels/rsm=16,vis=exact,shading=vsgl16",
-                                             "cornell/vpl/N=16,rsm=16,importance=16,vis=exact",
-                                             "cornell/vpl/N=16,rsm=16,importance=64,vis=exact"}));
+                                             "cornell/vpl/N=16,rsm=16,importance_lights=16,vis=exact",
+                                             "cornell/vpl/N=16,rsm=16,importance_lights=64,vis=exact"}));
 }
 
 TEST_F(ConfigTest, ParametersAreResolvedWithDefaults) {
@@ -215,6 +215,7 @@ TEST(ConfigPath, BareNamesAreThoseOfTheDataFolder) {
 TEST(Configs, EveryCommittedOneLoads) {
   for (const auto& entry : std::filesystem::directory_iterator(data_root() / "configs")) {
     if (entry.path().extension() != ".json") continue;
+    if (JsonDocument::load(entry.path(), ErrorKind::config).root().contains("figure")) continue;
     EXPECT_FALSE(load_config(entry.path()).cases.empty()) << entry.path();
   }
 }

@@ -75,8 +75,9 @@ MemoryNeed reference_memory(uint32_t width, uint32_t height) {
 
 uint64_t kept_memory(const Case& c) {
   if (c.frame.visibility != Visibility::exact) return 0;
-  const bool counted = find_method(c.method).takes_light_count;
-  const uint64_t lights = counted ? c.frame.lights : pixels_of(c.frame.rsm, c.frame.rsm);
+  const MethodInfo& method = find_method(c.method);
+  const uint64_t own = method.light_count > 0 ? method.light_count : pixels_of(c.frame.rsm, c.frame.rsm);
+  const uint64_t lights = method.takes_light_count ? c.frame.lights : own;
   return lights * ((pixels_of(c.frame.width, c.frame.height) + 31) / 32) * sizeof(uint32_t);
 }
 

@@ -50,6 +50,8 @@ void write_case(const fs::path& out, const CaseRun& run, float exposure, CaseRes
   result->images = {{"indirect", write_pair(out, stem + ".indirect", *run.image(), exposure)},
                     {"error", stem + ".error.exr"},
                     {"reference", write_reference(out, result->scene, *run.reference(), exposure)}};
+  if (run.cancellation())
+    result->images["cancellation"] = write_pair(out, stem + ".cancellation", *run.cancellation(), 1);
 }
 
 std::string detail_of(const CaseResult& c) {

@@ -11,7 +11,7 @@ namespace vsglbench {
 namespace {
 
 constexpr size_t kMaxCases = 100000;
-constexpr int64_t kMaxCount = 1 << 30, kMaxRsm = 16384;
+constexpr int64_t kMaxCount = 1 << 30, kMaxRsm = 16384, kMaxIterations = 1024;
 
 // One list of a sweep: its key, values, and where they stand in the file.
 struct Axis {
@@ -26,13 +26,18 @@ std::vector<std::string> case_keys() {
   return keys;
 }
 
+// Keys that mean nothing to VPLs, which have exact BRDFs; and those that mean nothing where no frame is shaded.
+bool is_vsgl_key(const std::string& key) { return is_shading_key(key) || key == "bias_reduction"; }
+bool is_frame_key(const std::string& key) {
+  return is_vsgl_key(key) || key == "visibility" || key == "importance" || key == "iterations";
+}
+
 bool always_named(const std::string& key) { return key == "N" || key == "rsm" || key == "visibility"; }
 
 // "vis=exact": short, since it becomes part of a file's name.
 std::string name_of(const std::string& key, const Json& value) {
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  const std::string short_key = key == "visibility" ? "vis" : key == "importance_lights" ? "importance" : key;
-  return fmt::format("{}={}", short_key, text);
+  return fmt::format("{}={}", key == "visibility" ? "vis" : key, text);
 }
 
 // Equal for equal parameters, whichever way their numbers are written.
@@ -95,6 +100,11 @@ class Entry {
       return parameters.contains(item.key()) && parameters.at(item.key()) == item.value();
     });
   }
+  // A parameter of the method that bears the name of a shading key is read in its place; a choice that the key
+  // has, too, counts as that.
+  bool is_own(const std::string& key) const {
+    return std::ranges::any_of(method_.parameters, [&](const auto& p) { return p.name == key; });
+  }
   bool reads_shading() const {
     return sees_ && !(method_.makes_vpls.is_object() && method_.makes_vpls.empty());
   }
@@ -105,7 +115,7 @@ class Entry {
     bool first = true;
     for (size_t i = 0; i < axes_.size(); ++i) {
       own[axes_[i].key] = axes_[i].values.at(index[i]);
-      first = first && (!is_shading_key(axes_[i].key) || index[i] == 0);
+      first = first && (!is_vsgl_key(axes_[i].key) || is_own(axes_[i].key) || index[i] == 0);
     }
     for (const auto& p : method_.parameters) {
       if (!own.contains(p.name)) own[p.name] = p.default_value;
@@ -124,23 +134,25 @@ class Entry {
                          fmt::format("unknown key '{}' for {}{}", key, method_.name, suggestion(key, known)));
       }
       if (key == "N" && !method_.takes_light_count) {
-        throw doc_.error(at, fmt::format("is not read: {} makes a light of every texel", method_.name));
+        const std::string makes = method_.light_count > 0 ? fmt::format("{} lights", method_.light_count)
+                                                          : "a light of every texel";
+        throw doc_.error(at, fmt::format("is not read: {} makes {}", method_.name, makes));
       }
-      if (key == "visibility" && !sees_)
+      if (is_frame_key(key) && !is_own(key) && !sees_)
         throw doc_.error(at, "is not read where only generation is measured");
-      if (is_shading_key(key) && !reads_shading())
-        throw doc_.error(at, sees_ ? fmt::format("is not read: {} makes VPLs, with exact BRDFs", method_.name)
-                                   : "is not read where only generation is measured");
+      if (is_vsgl_key(key) && !is_own(key) && !reads_shading())
+        throw doc_.error(at, fmt::format("is not read: {} makes VPLs, with exact BRDFs", method_.name));
       if (value.is_array() && value.empty()) throw doc_.error(at, "is an empty list: it would make no case");
     }
   }
 
   void add_axes() {
     for (const auto& key : case_keys()) {
-      const bool read = key == "N"            ? method_.takes_light_count
-                        : key == "visibility" ? sees_
-                        : is_shading_key(key) ? reads_shading()
-                                              : true;
+      const bool read = is_own(key)         ? false
+                        : key == "N"        ? method_.takes_light_count
+                        : is_vsgl_key(key)  ? reads_shading()
+                        : is_frame_key(key) ? sees_
+                                            : true;
       if (read) add_axis(key, true);
     }
     for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
@@ -182,8 +194,8 @@ class Entry {
     for (size_t i = 0; i < axes_.size(); ++i) {
       const Axis& axis = axes_[i];
       const Json& value = axis.values.at(index[i]);
-      if (!set(axis, value, &c.frame)) own[axis.key] = value;
-      if (axis.named && !is_shading_key(axis.key))
+      if (is_own(axis.key) || !set(axis, value, &c.frame)) own[axis.key] = value;
+      if (axis.named && (is_own(axis.key) || !is_vsgl_key(axis.key)))
         names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(axis.key, value));
     }
     try {
@@ -191,10 +203,19 @@ class Entry {
     } catch (const Error& e) {
       throw doc_.error(at_, e.what());
     }
-    if (makes_vpls(c.method_parameters)) c.frame.shading.clear();
-    for (const Axis& axis : axes_) {
-      const auto chosen = c.frame.shading.find(axis.key);
-      if (axis.named && chosen != c.frame.shading.end()) names += "," + name_of(axis.key, chosen->second);
+    for (const ShadingAxis& axis : shading_axes()) {
+      if (!is_own(axis.key) || !usable()) continue;
+      const auto chosen = c.method_parameters.at(axis.key).get<std::string>();
+      if (std::ranges::count(axis.choices, chosen) > 0) c.frame.shading[axis.key] = chosen;
+    }
+    if (makes_vpls(c.method_parameters)) {
+      c.frame.shading.clear();
+      c.frame.bias_reduction = 0;
+    } else {
+      for (size_t i = 0; i < axes_.size(); ++i) {
+        if (axes_[i].named && is_vsgl_key(axes_[i].key) && !is_own(axes_[i].key))
+          names += "," + name_of(axes_[i].key, axes_[i].values.at(index[i]));
+      }
     }
     c.id = fmt::format("{}/{}/{}", scene, method_.name, names);
     c.parameters = resolved(c);
@@ -210,7 +231,13 @@ class Entry {
     } else if (axis.key == "importance_lights") {
       frame->importance_lights = count(axis, value, 1, kMaxCount);
     } else if (axis.key == "visibility") {
-      frame->visibility = visibility(axis, value);
+      frame->visibility = choice(axis, value, parse_visibility);
+    } else if (axis.key == "importance") {
+      frame->importance = choice(axis, value, parse_importance);
+    } else if (axis.key == "iterations") {
+      frame->iterations = count(axis, value, 1, kMaxIterations);
+    } else if (axis.key == "bias_reduction") {
+      frame->bias_reduction = number(axis, value, 1e30);
     } else if (is_shading_key(axis.key)) {
       frame->shading[axis.key] = shading_choice(axis, value);
     } else {
@@ -228,9 +255,16 @@ class Entry {
     return value.get<uint32_t>();
   }
 
-  Visibility visibility(const Axis& axis, const Json& value) const {
+  float number(const Axis& axis, const Json& value, double maximum) const {
+    if (!value.is_number() || !(value.get<double>() >= 0) || value.get<double>() > maximum)
+      throw doc_.error(axis.at, fmt::format("{} must be a number within 0 … {}", value.dump(), maximum));
+    return value.get<float>();
+  }
+
+  template <class Choice>
+  Choice choice(const Axis& axis, const Json& value, Choice (*parse)(const std::string&)) const {
     try {
-      return parse_visibility(value.is_string() ? value.get<std::string>() : value.dump());
+      return parse(value.is_string() ? value.get<std::string>() : value.dump());
     } catch (const Error& e) {
       throw doc_.error(axis.at, e.what());
     }
@@ -253,9 +287,12 @@ class Entry {
     p["height"] = c.frame.height;
     p["importance_lights"] = c.frame.importance_lights;
     if (sees_) p["visibility"] = visibility_name(c.frame.visibility);
-    if (c.frame.visibility == Visibility::ism)
+    if (has_shadow_maps(c.frame.visibility))
       p["ism"] = {{"size", c.frame.ism.size}, {"points", c.frame.ism.points}};
+    if (sees_) p["importance"] = importance_names()[static_cast<size_t>(c.frame.importance)];
+    if (sees_) p["iterations"] = c.frame.iterations;
     for (const auto& [key, choice] : c.frame.shading) p[key] = choice;
+    if (!c.frame.shading.empty()) p["bias_reduction"] = c.frame.bias_reduction;
     for (const auto& [key, value] : c.method_parameters.items()) p[key] = value;
     return p;
   }
@@ -272,7 +309,8 @@ class Entry {
 
 const Json& case_defaults() {
   static const Json defaults = [] {
-    Json all = {{"N", 256}, {"rsm", 256}, {"importance_lights", 2048}, {"visibility", "exact"}};
+    Json all = {{"N", 256},           {"rsm", 256},        {"importance_lights", 2048}, {"visibility", "exact"},
+                {"importance", "own"}, {"iterations", 1}, {"bias_reduction", 0}};
     for (const ShadingAxis& axis : shading_axes()) all[axis.key] = axis.choices.front();
     return all;
   }();

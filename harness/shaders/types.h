@@ -29,22 +29,23 @@ struct Vsgl {
   float power;            // luminance of the reflected power of both lobes, W; 0 = no light
 };
 
-// A virtual point light with its exact BRDF [VSGL14 Eq. 1].
+// A virtual point light with its exact BRDF [VSGL14 Eq. 1]; one with a radius is a virtual spherical light
+// [VSGL14 Eq. 2].
 struct Vpl {
   vec3 position;
   float ndf;              // > 0: GGX alpha; < 0: minus the Phong exponent
   vec3 normal;            // shading normal, unit
   float power;            // luminance of the incident flux, W; 0 = no light
   vec3 geometric_normal;  // unit, towards the primary light's side
-  float unused0;
+  float radius;           // m, of a virtual spherical light; 0: a point
   vec3 incident;          // unit, from the surface towards the primary light
-  float unused1;
+  float clamp;            // bound on a point's geometry term cos cos/d², 1/m²; 0: none
   vec3 flux;              // incident flux that this light stands for, W
-  float unused2;
+  float samples;          // of a virtual spherical light seen under a half angle of π/2
   vec3 diffuse;           // Rd
-  float unused3;
+  float unused0;
   vec3 f0;                // F0
-  float unused4;
+  float unused1;
 };
 
 // What emits into a half: the primary light (RSM), or the eye (G-buffer; importance 1/pixels each).

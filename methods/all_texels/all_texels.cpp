@@ -36,10 +36,10 @@ VSGLBENCH_METHOD(MethodInfo{
     .makes_vpls = {{"shading", "exact"}},
     .parameters = {{"shading",
                     "exact",
-                    "exact: both BRDFs; vsgl16: each texel's SG lobes [MFIS16 App. C]",
+                    "exact: both BRDFs; vsgl16, vsgl14: each texel's SG lobes [MFIS16 App. C; VSGL14 §3.1]",
                     0,
                     0,
-                    {"exact", "vsgl16"}}},
+                    {"exact", "vsgl16", "vsgl14"}}},
     .flux_bound = 1e-5,
     .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
       return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");

@@ -3,11 +3,13 @@
 #include "light_kernel.glsl"
 
 // Flux Φ/(N p) of a texel drawn with density p. An unlit or absent texel, or a PDF that is zero everywhere, gives no
-// light.
+// light. parameter[0]: clamp of the geometry term, 1/m²; 0: none.
 Vpl make_light(uint i) {
   Draw d;
   Texel t;
   bool drawn = draw(i, d);
   bool surface = load_texel(emitter, ivec2(d.texel), t);
-  return make_vpl(t, drawn && surface ? d.share : 0.0);
+  Vpl light = make_vpl(t, drawn && surface ? d.share : 0.0);
+  light.clamp = parameter[0];
+  return light;
 }

@@ -2,10 +2,12 @@
 #include "method/light_kernel.h"
 #include "method/plugin.h"
 
-VSGLBENCH_METHOD(MethodInfo{.summary = "virtual point lights, exact BRDFs, no filtering, no clamping",
-                            .source = "Keller 1997; [VSGL14] Eq. 1",
-                            .makes_vpls = Json::object(),
-                            .flux_bound = 0.01,
-                            .create = [](MethodContext& context, const Json&) {
-                              return make_light_kernel(context, "vpl.comp", LightKind::vpl);
-                            }})
+VSGLBENCH_METHOD(MethodInfo{
+    .summary = "virtual point lights, exact BRDFs, no filtering",
+    .source = "Keller 1997; [VSGL14] Eq. 1",
+    .makes_vpls = Json::object(),
+    .parameters = {{"clamp", 0.0, "bound on the geometry term cos cos/d², 1/m²; 0: none", 0, 1e30, {}}},
+    .flux_bound = 0.01,
+    .create = [](MethodContext& context, const Json& parameters) {
+      return make_light_kernel(context, "vpl.comp", LightKind::vpl, {parameters.at("clamp").get<float>()});
+    }})

@@ -1,6 +1,7 @@
 // VSGLs by filtered importance sampling [MFIS16 §3–4, App. D]. The including kernel defines
 //   float kernel_level(Centre c)               the mip level l_i
 //   float kernel_share(Centre c, float level)  the total is this times the filtered mean f̄(x_i, l_i)
+// and, with OWN_CENTRES, uvec2 choose_texel(uint i), the base texel of light i; else a stratified point is warped.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Pdf { float pdf[]; };
 #define PDF(i) pdf[i]
@@ -8,6 +9,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Pdf { float pdf[]; };
 #include "moments_buffers.glsl"
 #include "warp.glsl"
 layout(set = 0, binding = 6, scalar) writeonly buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer Squares { vec4 squares[]; };  // LightShapes
 layout(push_constant, scalar) uniform Push {
   uint width, height;
   uint count;         // N
@@ -42,6 +44,11 @@ float kernel_area(float level) { return exp2(2.0 * level) / texel_count(); }
 
 float kernel_level(Centre c);
 float kernel_share(Centre c, float level);
+#ifdef OWN_CENTRES
+uvec2 choose_texel(uint i);
+#else
+uvec2 choose_texel(uint i) { return warp(base_size(), unit_interval(lattice_point(i, step, shift))); }
+#endif
 
 // f̄(x, l): the moments merged with trilinear weights.
 Moments moments_on_level(Centre c, uint level) {
@@ -64,13 +71,15 @@ void main() {
   float mean = PDF(level_offset(base_size(), top_level(base_size())));
   if (!(mean > 0.0)) {  // a PDF that is zero everywhere gives no lights
     lights[i] = no_light();
+    squares[i] = vec4(0.0);
     return;
   }
-  // 1. Centre: a stratified point, warped by the PDF.
-  uvec2 texel = warp(base_size(), unit_interval(lattice_point(i, step, shift)));
+  // 1. Centre.
+  uvec2 texel = choose_texel(i);
   Centre c = Centre(vec2(texel) + 0.5, PDF(texel.y * width + texel.x) / mean, 1.0 / mean);
   // 2. Kernel size.  3. Total of the RSM values within the kernel.
   float level = kernel_level(c);
   float share = kernel_share(c, level) * texel_count();  // stored powers are per texel
   lights[i] = make_vsgl(filtered_moments(c, level), share, level);
+  squares[i] = vec4(c.position, exp2(level), 0.0);
 }

@@ -15,7 +15,7 @@ Vpl make_vpl(Texel t, float share) {
   v.power = luminance(v.flux);
   v.diffuse = t.surface.diffuse;
   v.f0 = t.surface.f0;
-  v.unused0 = v.unused1 = v.unused2 = v.unused3 = v.unused4 = 0.0;
+  v.radius = v.clamp = v.samples = v.unused0 = v.unused1 = 0.0;
   return v;
 }
 

@@ -1,0 +1,51 @@
+// The RSM texel that stands for each light: the one that the primary light sees its mean through. Where every texel
+// is a light of its own that is the light's texel.
+//  * `texels`: its exact BRDF, with the light's whole flux, for the consistent bias reduction [VSGL14 §3.3]. Unlike the
+//    paper, which filters BRDF parameters, the BRDF is a texel's: with N it converges to the same.
+//  * LOBE_FILTER 1: the light's specular lobe becomes that texel's, unfiltered, of the same power [VSGL14 Fig. 3a].
+#version 460
+#include "types.h"
+layout(local_size_x = 64) in;
+#include "field_maps.glsl"
+#include "field.glsl"
+#include "vpl_light.glsl"
+layout(set = 0, binding = 5, scalar) buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = 6, scalar) writeonly buffer Texels { Vpl texels[]; };
+layout(push_constant, scalar) uniform Push { Emitter emitter; uint count; };
+
+// Texel that `position` falls into.
+ivec2 texel_of(vec3 position) {
+  vec3 d = position - emitter.position;
+  float along = emitter.perspective != 0u ? max(dot(d, emitter.forward), 1e-20) : 1.0;
+  vec2 plane = vec2(dot(d, emitter.right), dot(d, emitter.up)) / (along * emitter.extent);
+  ivec2 size = ivec2(emitter.width, emitter.height);
+  return clamp(ivec2((vec2(0.5) + vec2(0.5, -0.5) * plane) * vec2(size)), ivec2(0), size - 1);
+}
+
+// Φ of a light of this reflected power; 0 where the texel reflects nothing.
+vec3 flux_behind(vec3 reflected, vec3 reflectance) {
+  return mix(vec3(0.0), reflected / max(reflectance, vec3(1e-20)), greaterThan(reflectance, vec3(0.0)));
+}
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= count) return;
+  Vsgl light = lights[i];
+  vec3 diffuse = light.diffuse * sg_integral(light.diffuse_sharpness);
+  vec3 specular = light.specular * sg_integral(light.specular_sharpness);
+  Texel t;
+  bool lit = light.power > 0.0;
+  bool surface = load_texel(emitter, lit ? texel_of(light.mean) : ivec2(0), t) && lit;
+  Vpl v = make_vpl(t, 0.0);
+  v.flux = flux_behind(diffuse + specular, t.surface.diffuse + specular_reflectance(t.surface));
+  v.power = surface ? luminance(v.flux) : 0.0;
+  texels[i] = v;
+#if LOBE_FILTER == 1
+  if (!surface) return;
+  Moments m = leaf_moments(t);
+  light.specular_axis = safe_normalize(m.specular.direction, light.specular_axis);
+  light.specular_sharpness = lobe_sharpness(m.specular.q);
+  light.specular = specular / sg_integral(light.specular_sharpness);
+  lights[i] = light;
+#endif
+}

@@ -1,0 +1,33 @@
+// One virtual point light at one surface, without visibility [VSGL14 Eq. 1].
+#ifndef VSGLBENCH_VPL_SHADING_GLSL
+#define VSGLBENCH_VPL_SHADING_GLSL
+
+#include "brdf.glsl"
+#include "types.h"
+
+Surface vpl_surface(Vpl light) {
+  return Surface(light.position, light.normal, light.geometric_normal, light.incident, light.diffuse, light.f0,
+                 light.ndf);
+}
+
+// ρ(ω) = Φ f(x1) f(x2) cos cos, ω from the surface to the light [VSGL14 §2].
+vec3 vpl_rho(Surface s, Vpl light, vec3 direction) {
+  return light.flux * brdf_cosine(vpl_surface(light), -direction) * brdf_cosine(s, direction);
+}
+
+// ρ/d². Where the light has a clamp, the geometry term cos cos/d² counts as no more than that, and the luminance
+// taken away is added to `removed`.
+vec3 shade_vpl(Surface s, Vpl light, inout float removed) {
+  vec3 to_light = light.position - s.position;
+  float distance2 = dot(to_light, to_light);
+  if (light.power <= 0.0 || distance2 <= 0.0) return vec3(0.0);
+  vec3 direction = to_light * inversesqrt(distance2);
+  vec3 reflected = vpl_rho(s, light, direction) / distance2;
+  if (light.clamp <= 0.0) return reflected;
+  float geometry = max(dot(s.normal, direction), 0.0) * max(dot(light.normal, -direction), 0.0) / distance2;
+  float kept = geometry > light.clamp ? light.clamp / geometry : 1.0;
+  removed += (1.0 - kept) * luminance(reflected);
+  return kept * reflected;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// The kernels of `mfis` round centres drawn by Metropolis-Hastings (Barák et al. 2013; [MFIS16] §6, Fig. 8).
+//
+// Unlike Barák et al., who carry each chain over from one frame to the next, every frame runs each chain anew from the
+// same start with the same random numbers. A centre depends on the PDF alone, and a PDF that changes a little changes
+// few decisions to accept: most centres stay exactly where they were. There is no state to warm up or to lose, and a
+// frame can be repeated.
+#version 460
+#include "types.h"
+#define OWN_CENTRES
+#include "filtered_sampling.glsl"
+#include "equal_probability.glsl"
+#include "random.glsl"
+
+const uint kSteps = STEPS;
+
+uint texel_index(vec2 u) {
+  uvec2 texel = min(uvec2(u * vec2(base_size())), base_size() - 1u);
+  return texel.y * width + texel.x;
+}
+
+// Half of the proposals lie anywhere; half near the last point, at a distance of 2^-8 to 2^-3 of the image, each
+// octave as likely. Both are symmetric, so p(y)/p(x) decides.
+vec2 propose(vec2 x, uvec2 word) {
+  vec2 u = vec2(unit_float(word.x), unit_float(word.y));
+  uint choice = random_hash(word.x ^ word.y);
+  if ((choice & 1u) == 0u) return u;
+  float angle = 2.0 * PI * u.x, distance = exp2(-8.0 + 5.0 * u.y);
+  return fract(x + distance * vec2(cos(angle), sin(angle)));
+}
+
+uvec2 choose_texel(uint i) {
+  vec2 x = unit_interval(lattice_point(i, step, shift));
+  uint chain = random_hash(i ^ random_hash(shift));
+  for (uint t = 0u; t < kSteps; ++t) {
+    uint word = random_hash(chain + 2u * t);
+    vec2 y = propose(x, uvec2(word, random_hash(word)));
+    // u p(x) <= p(y), so that a point where p is 0 is always left.
+    float u = unit_float(random_hash(chain + 2u * t + 1u));
+    if (u * PDF(texel_index(x)) <= PDF(texel_index(y))) x = y;
+  }
+  return min(uvec2(x * vec2(base_size())), base_size() - 1u);
+}

@@ -1,0 +1,14 @@
+// `mfis` with centres from Metropolis-Hastings chains, coherent from frame to frame (Barák et al. 2013).
+#include "method/filtered_sampling.h"
+#include "method/plugin.h"
+
+VSGLBENCH_METHOD(MethodInfo{
+    .summary = "kernels of equal probability round Metropolis-Hastings centres, coherent from frame to frame",
+    .source = "Barák et al. 2013; [MFIS16] §6, Fig. 8",
+    .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}},
+                   {"steps", 64, "of each chain", 1, 4096, {}}},
+    .flux_bound = 0.1,
+    .create = [](MethodContext& context, const Json& parameters) {
+      return make_filtered_sampling(context, "mfis_mh.comp", parameters.at("K").get<float>(),
+                                    {{"STEPS", parameters.at("steps").dump() + "u"}});
+    }})
