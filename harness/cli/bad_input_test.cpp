@@ -111,9 +111,7 @@ class BrokenKernel : public CliTest {
     fs::copy_file(fs::path(VSGLBENCH_BINARY_DIR) / "lib" / "vsglbench" / "plugins" / "vpl.so",
                   plugins / "vpl.so", fs::copy_options::overwrite_existing);
     std::string text = read_text(source / "vpl.comp");
-    const size_t at = text.find("return make_vpl("), end = text.find(';', at);
-    const std::string light = text.substr(at + 7, end - at - 7);
-    text.replace(at, end + 1 - at, "Vpl v = " + light + ";\n" + statement + "\nreturn v;");
+    text.insert(text.find("return v;"), statement + "\n");
     write_text(plugins / "vpl" / "vpl.comp", text);
     ::setenv("VSGLBENCH_PLUGINS", plugins.c_str(), 1);
   }

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "cli/command.h"
+#include "figure/figure.h"
 #include "method/registry.h"
 #include "run/config.h"
 #include "run/runner.h"
@@ -45,6 +46,13 @@ Json list_configs() {
   Json out = Json::array();
   for (const auto& file : files) {
     try {
+      const Json root = JsonDocument::load(file, ErrorKind::config).root();
+      if (root.is_object() && root.contains("figure")) {
+        out.push_back({{"name", file.stem().string()},
+                       {"summary", load_figure_config(file, 0, 0).value("description", "")},
+                       {"figure", root["figure"]}});
+        continue;
+      }
       const Config config = load_config(file);
       out.push_back(
           {{"name", file.stem().string()}, {"summary", config.description}, {"cases", config.cases.size()}});

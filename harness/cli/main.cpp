@@ -88,6 +88,8 @@ int main(int argc, char** argv) {
   add_code_size_command(app, &result);
   add_kernels_command(app, arguments, &result);
   add_sg_command(app, &result);
+  add_figure_command(app, arguments, &result);
+  add_stability_command(app, &result);
   for (CLI::App* command : app.get_subcommands({})) {
     command->fallthrough();  // -q and the like may come last
     refuse_no_numbers(command);

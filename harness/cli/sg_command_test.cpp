@@ -77,6 +77,28 @@ TEST_F(SgCommand, RefusesBadInputWithFileAndLine) {
   EXPECT_NE(none.err.find("none.csv: not a file that can be read"), std::string::npos) << none.err;
 }
 
+// A white Lambert surface, the light of 3 W/sr 2 m above it: 3/4/π.
+TEST_F(SgCommand, ShadesAWholeLight) {
+  const std::string header =
+      "distance,variance,light_cosine,light_azimuth,diffuse_angle,diffuse_azimuth,diffuse_sharpness,"
+      "diffuse_intensity,specular_angle,specular_azimuth,specular_sharpness,specular_intensity,view_cosine,"
+      "albedo,f0,"
+      "ndf,frame";
+  const std::vector<std::string> shade = {"--function", "shade"};
+  const Finished f = run(header + "\n2,1e-6,1,0,0,0,0,3,0,0,0,0,1,1,0,0.5,0\n", shade);
+  ASSERT_EQ(f.code, 0) << f.err;
+  EXPECT_NE(f.out.find(",0.5,0,0.2387"), std::string::npos) << f.out;
+  EXPECT_TRUE(f.out.starts_with(header + ",value,exact,error_over_condition\n")) << f.out;
+  expect_refused(header + "\n2,1e-6,1,0,0,0,0,3,0,0,0,0,1,1,0,0,0\n",
+                 "in.csv:2: ndf is 0, not in [0.001, 1] (GGX)", shade);
+  expect_refused(header + "\n0,1e-6,1,0,0,0,0,3,0,0,0,0,1,1,0,1,0\n", "in.csv:2: distance is 0", shade);
+  const Finished random = finish(start({"sg", "--function", "shade", "--random", "2000"}));
+  EXPECT_EQ(random.code, 0) << random.out << random.err;
+  EXPECT_NE(random.out.find("shade cosine, 2000 random rows, seed 1: error_over_condition p50"),
+            std::string::npos)
+      << random.out;
+}
+
 TEST_F(SgCommand, RandomRowsAreRepeatableAndFailuresComeWithAReproducer) {
   const std::vector<std::string> sound = {"sg",     "--kernel", "tokuyoshi2024", "--random", "2000",
                                           "--seed", "5"};

@@ -33,7 +33,7 @@ void main() {
   vec3 geometric = face_normals[draw.first_triangle + uint(gl_PrimitiveID)].xyz;
   if (dot(geometric, view) < 0.0) geometric = -geometric;
 
-  vec3 n = normalize(normal);
+  vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : geometric;  // opposite normals may cancel
   if ((draw.textures & 4u) != 0u) {
     vec3 axis = tangent.xyz - n * dot(n, tangent.xyz);
     if (dot(axis, axis) > 1e-12) {

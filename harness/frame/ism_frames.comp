@@ -19,6 +19,6 @@ void main() {
 #else
   // Occluders nearer than one standard deviation belong to the light itself.
   frames[2u * k] = vec4(lights[k].mean, sqrt(lights[k].variance));
-  frames[2u * k + 1u] = vec4(lights[k].diffuse_axis, 0.0);
+  frames[2u * k + 1u] = vec4(lights[k].diffuse_axis, 1.0);
 #endif
 }

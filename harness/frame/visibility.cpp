@@ -1,6 +1,7 @@
 #include "frame/visibility.h"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 #include <numeric>
 #include <random>
 
@@ -26,8 +27,23 @@ Visibility parse_visibility(const std::string& name) {
 
 namespace {
 
+// A unit vector or its opposite, octahedral, as two 16-bit signed fractions (packSnorm2x16).
+uint32_t pack_normal(glm::dvec3 n) {
+  n *= (n.z < 0 ? -1 : 1) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  const auto fraction = [](double v) {
+    return static_cast<uint16_t>(static_cast<int16_t>(std::lround(v * 32767)));
+  };
+  return fraction(n.x) | static_cast<uint32_t>(fraction(n.y)) << 16;
+}
+
+struct SurfacePoint {
+  glm::vec3 position;
+  uint32_t normal;
+};
+static_assert(sizeof(SurfacePoint) == 16);
+
 // `count` points spread uniformly over the scene's area.
-std::vector<glm::vec4> surface_points(const Scene& scene, uint32_t count) {
+std::vector<SurfacePoint> surface_points(const Scene& scene, uint32_t count) {
   std::vector<double> cumulative(scene.triangles.size());
   double total = 0;
   for (size_t i = 0; i < cumulative.size(); ++i) {
@@ -37,71 +53,111 @@ std::vector<glm::vec4> surface_points(const Scene& scene, uint32_t count) {
   }
   std::mt19937_64 random(1);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  std::vector<glm::vec4> points(count);
+  std::vector<SurfacePoint> points(count);
   for (auto& point : points) {
     const auto it = std::upper_bound(cumulative.begin(), cumulative.end(), uniform() * total);
     const size_t i = std::min<size_t>(it - cumulative.begin(), cumulative.size() - 1);
     const double s = std::sqrt(uniform()), v = uniform();
     const auto& t = scene.triangles[i];
     const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
-    point = glm::vec4(glm::vec3((1 - s) * a + s * (1 - v) * b + s * v * c), 1);
+    point = {glm::vec3((1 - s) * a + s * (1 - v) * b + s * v * c),
+             pack_normal(glm::normalize(glm::cross(b - a, c - a)))};
   }
   return points;
 }
+
+constexpr uint32_t kPool = 1u << 20;  // points of ism, from which each map takes its share
+constexpr uint32_t kCoarsest = 4;     // holes are filled down to 4×4: a wider one is open space
+constexpr size_t kFrameBytes = 2 * sizeof(glm::vec4);
+
+std::filesystem::path shader(const char* file) { return data_root() / "harness" / "frame" / file; }
 
 }  // namespace
 
 ImperfectShadowMaps::ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene,
                                          Visibility technique, IsmParameters parameters)
-    : kernels_(kernels),
-      scratch_(scratch),
-      technique_(technique),
-      parameters_(parameters),
-      pool_(1u << 20) {
-  const auto points = surface_points(scene, pool_);
-  points_ = Buffer(kernels.device(), "ism points", points.size() * sizeof(glm::vec4));
-  points_.upload(std::span<const glm::vec4>(points));
+    : kernels_(kernels), scratch_(scratch), technique_(technique), parameters_(parameters) {
+  if (technique_ == Visibility::ism) {
+    const auto points = surface_points(scene, kPool);
+    points_ = Buffer(kernels.device(), "ism points", points.size() * sizeof(SurfacePoint));
+    points_.upload(std::span<const SurfacePoint>(points));
+  } else {
+    surface_ = SurfaceClustersGpu(kernels.device(), cluster_surface(scene));
+  }
+}
+
+size_t ImperfectShadowMaps::level_bytes(uint32_t size, uint32_t count) const {
+  return size_t(count) * size * size * sizeof(uint32_t);
 }
 
 Buffer& ImperfectShadowMaps::level(uint32_t size, uint32_t count) {
-  return scratch_.get(fmt::format("ism {}", size), size_t(count) * size * size * sizeof(uint32_t));
+  return scratch_.get(fmt::format("ism {}", size), level_bytes(size, count));
+}
+
+size_t ImperfectShadowMaps::memory_bytes(uint32_t count) const {
+  size_t bytes =
+      count * kFrameBytes + points_.size() + surface_.bytes() + level_bytes(parameters_.size, count);
+  for (uint32_t size = parameters_.size / 2; size >= kCoarsest; size /= 2) bytes += level_bytes(size, count);
+  return bytes;
+}
+
+std::string ImperfectShadowMaps::pass_name(const char* step) const {
+  return fmt::format("visibility.{}.{}", visibility_name(technique_), step);
 }
 
 ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const Buffer& lights, LightKind kind,
-                                                     uint32_t count, const DeferredTargets& /*seen*/) {
-  const auto folder = data_root() / "harness" / "frame";
-  const uint32_t size = parameters_.size;
-  Buffer& frames = scratch_.get("ism frames", size_t(count) * 32);
-  Buffer& maps = level(size, count);
+                                                     uint32_t count, const DeferredTargets& seen) {
+  Buffer& frames = scratch_.get("ism frames", count * kFrameBytes);
+  Buffer& maps = level(parameters_.size, count);
   const Kernel& make_frames =
-      kernels_.get(folder / "ism_frames.comp", {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"}});
-  const Kernel& splat = kernels_.get(folder / "ism_splat.comp");
-  recorder.pass("visibility.ism.splat", [&] {
+      kernels_.get(shader("ism_frames.comp"), {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"}});
+  recorder.pass(pass_name("splat"), [&] {
     recorder.fill(maps, 0x7F800000u);
     recorder.dispatch(make_frames, {lights, frames}, count, groups_for(count, 64));
     recorder.barrier();
-    const struct { uint32_t count, map_size, per_map, pool; } push{count, size, parameters_.points, pool_};
-    recorder.dispatch(splat, {frames, points_, maps}, push, groups_for(parameters_.points, 64), count);
+    splat(recorder, frames, maps, count, seen);
   });
   fill_holes(recorder, count);
-  return {&maps, &frames, size};
+  return {&maps, &frames, parameters_.size};
+}
+
+void ImperfectShadowMaps::splat(Recorder& recorder, const Buffer& frames, const Buffer& maps, uint32_t count,
+                                const DeferredTargets& seen) {
+  const auto& [size, points] = parameters_;
+  const auto& [positions, triangles, areas, clusters, cluster_count] = surface_;
+  if (technique_ == Visibility::ism) {
+    const struct { uint32_t count, map_size, per_map, pool; } push{count, size, points, kPool};
+    recorder.dispatch(kernels_.get(shader("ism_splat.comp")), {frames, points_, maps}, push,
+                      groups_for(points, 64), count);
+  } else if (technique_ == Visibility::aism) {
+    const struct {
+      uint32_t count, map_size, per_map, cluster_count, width, height;
+    } push{count, size, points, cluster_count, seen.width, seen.height};
+    recorder.dispatch(kernels_.get(shader("aism_splat.comp")),
+                      {positions, triangles, areas, clusters, frames, maps, seen.maps[0]}, push, count);
+  } else {
+    const struct {
+      uint32_t count, map_size, cluster_count;
+      float piece;
+    } push{count, size, cluster_count, 2 * glm::pi<float>() / static_cast<float>(points)};
+    recorder.dispatch(kernels_.get(shader("tism_splat.comp")),
+                      {positions, triangles, areas, clusters, frames, maps}, push,
+                      groups_for(cluster_count, 64), count);
+  }
 }
 
 void ImperfectShadowMaps::fill_holes(Recorder& recorder, uint32_t count) {
-  const auto folder = data_root() / "harness" / "frame";
-  const Kernel& pull = kernels_.get(folder / "ism_pull.comp");
-  const Kernel& push_kernel = kernels_.get(folder / "ism_push.comp");
-  // Down to 4×4: a wider hole is open space.
-  constexpr uint32_t coarsest = 4;
-  recorder.pass("visibility.ism.pull", [&] {
-    for (uint32_t size = parameters_.size / 2; size >= coarsest; size /= 2) {
+  const Kernel& pull = kernels_.get(shader("ism_pull.comp"));
+  const Kernel& push_kernel = kernels_.get(shader("ism_push.comp"));
+  recorder.pass(pass_name("pull"), [&] {
+    for (uint32_t size = parameters_.size / 2; size >= kCoarsest; size /= 2) {
       recorder.dispatch(pull, {level(2 * size, count), level(size, count)}, size, groups_for(size * size, 64),
                         count);
       recorder.barrier();
     }
   });
-  recorder.pass("visibility.ism.push", [&] {
-    for (uint32_t size = 2 * coarsest; size <= parameters_.size; size *= 2) {
+  recorder.pass(pass_name("push"), [&] {
+    for (uint32_t size = 2 * kCoarsest; size <= parameters_.size; size *= 2) {
       recorder.dispatch(push_kernel, {level(size / 2, count), level(size, count)}, size,
                         groups_for(size * size, 64), count);
       recorder.barrier();

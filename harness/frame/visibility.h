@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/ism_surface.h"
 #include "frame/scene_gpu.h"
 #include "method/method.h"
 #include "scene/scene.h"
@@ -18,7 +19,7 @@ namespace vsglbench {
 //  aism   the same with points chosen for each map and the view (Ritschel et al. 2011)
 //  tism   the same with tessellated triangles for points (Barák et al. 2013)
 enum class Visibility { none, exact, ism, aism, tism };
-const std::vector<std::string>& visibility_names();  // in the order of the enumeration
+const std::vector<std::string>& visibility_names();    // in the order of the enumeration
 Visibility parse_visibility(const std::string& name);  // throws Error(config)
 std::string visibility_name(Visibility v);
 inline bool has_shadow_maps(Visibility v) { return v >= Visibility::ism; }
@@ -36,10 +37,15 @@ using ExactVisibility = std::function<std::vector<uint32_t>(const std::vector<Li
 
 struct IsmParameters {
   uint32_t size = 64;      // texels a side, a power of two
-  uint32_t points = 8192;  // splatted into each map
+  uint32_t points = 8192;  // ism, aism: splatted into each map; tism: pieces no smaller than 2π/points sr
 };
 
-// Imperfect shadow maps of all lights (Ritschel et al. 2008), as passes visibility.ism.*.
+// Imperfect shadow maps of all lights, as passes visibility.TECHNIQUE.{splat,pull,push}. The techniques
+// differ in which points of the scene are splatted into a map:
+//   ism   a random share of points spread over the scene's area (Ritschel et al. 2008 §4)
+//   aism  drawn for the map by solid angle and by what they may hide from the camera (Ritschel et al. 2011)
+//   tism  pieces of all triangles, about as large as texels (Barák et al. 2013)
+// The shaders say where they depart from the papers. Holes of alpha-masked texels are not in the maps.
 class ImperfectShadowMaps {
  public:
   // `technique`: one that has shadow maps.
@@ -52,16 +58,23 @@ class ImperfectShadowMaps {
   // `seen`: what the camera sees, for techniques that adapt to it.
   Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count,
              const DeferredTargets& seen);
+  // Of all buffers for `count` lights, beside the scene as the rasteriser has it: what points are made from
+  // (for aism and tism with a copy of positions and triangles), maps with their pyramids, and frames.
+  size_t memory_bytes(uint32_t count) const;
 
  private:
+  void splat(Recorder& recorder, const Buffer& frames, const Buffer& maps, uint32_t count,
+             const DeferredTargets& seen);
   void fill_holes(Recorder& recorder, uint32_t count);
+  size_t level_bytes(uint32_t size, uint32_t count) const;
   Buffer& level(uint32_t size, uint32_t count);
+  std::string pass_name(const char* step) const;
   KernelLibrary& kernels_;
   ScratchPool& scratch_;
   Visibility technique_;
   IsmParameters parameters_;
-  Buffer points_;
-  uint32_t pool_ = 0;
+  Buffer points_;               // ism
+  SurfaceClustersGpu surface_;  // aism, tism
 };
 
 }  // namespace vsglbench

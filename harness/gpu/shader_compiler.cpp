@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "gpu/contraction.h"
 
 namespace fs = std::filesystem;
 
@@ -142,6 +143,7 @@ std::vector<uint32_t> compile(const Source& source, const TBuiltInResource& limi
   glslang::SpvOptions options;
   options.disableOptimizer = true;
   glslang::GlslangToSpv(*program.getIntermediate(source.stage), spirv, &options);
+  set_contraction(contraction_asked(), &spirv);
   return spirv;
 }
 
@@ -179,7 +181,7 @@ std::vector<uint32_t> compile_shader(const fs::path& path, const ShaderDefines& 
   const Source source(path, defines);
   // The key: what the preprocessor makes of source, includes and defines.
   Hasher hasher;
-  hasher.text(preprocess(source, limits, includer)).value(source.stage);
+  hasher.text(preprocess(source, limits, includer)).value(source.stage).value(contraction_asked());
   for (const int v : {GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH}) hasher.value(v);
   const fs::path cached = cache_directory() / "spirv" / (hasher.hex() + ".spv");
 

@@ -6,6 +6,9 @@ layout(local_size_x = 64) in;
 #include "asg.glsl"
 #include "sg.glsl"
 #include "sg_diffuse.glsl"
+#if FUNCTION == 14
+#include "vsgl_shading.glsl"
+#endif
 
 layout(set = 0, binding = 0, std430) readonly buffer Arguments { float arguments[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Values { float values[]; };
@@ -48,5 +51,20 @@ void main() {
   result(0, exp_accurate(argument(0)));
 #elif FUNCTION == 13
   result(0, asg_product(vector(0), argument(3), argument(4), argument(5)));
+#elif FUNCTION == 14
+  Surface surface = Surface(vec3(0.0), vector(14), vector(14), vector(17), vec3(argument(20)), vec3(argument(21)),
+                            argument(22));
+  Vsgl light;
+  light.mean = vector(0);
+  light.variance = argument(3);
+  light.diffuse_axis = vector(4);
+  light.diffuse_sharpness = argument(7);
+  light.specular_axis = vector(8);
+  light.specular_sharpness = argument(11);
+  light.diffuse = vec3(argument(12));
+  light.specular = vec3(argument(13));
+  light.level = -1.0;
+  light.power = 1.0;
+  result(0, shade_vsgl(make_receiver(surface), light).x);
 #endif
 }

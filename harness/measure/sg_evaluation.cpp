@@ -6,24 +6,22 @@
 #include <limits>
 #include <thread>
 
-#include "base/error.h"
 #include "base/file.h"
-#include "base/nearest.h"
+#include "measure/sg_shade.h"
 
 namespace vsglbench {
 namespace {
 
 using glm::dvec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastNormal = std::numeric_limits<float>::min();
-constexpr double kSharpest = 0x1p41;
 constexpr size_t kChunkRows = 1 << 18, kGroup = 64;
 
 double banerjee(double complement) { return exact::banerjee_sharpness(std::max(complement, 0x1p-41)); }
 
 // Columns as the device has them: two axes for the cosine between them.
 size_t device_columns(const SgQuestion& q) {
+  if (q.function == SgFunction::shade) return sg_shade::kDeviceColumns;
   const bool axes = q.function == SgFunction::product || q.function == SgFunction::value;
   return axes ? 8 : q.info().columns.size();
 }
@@ -44,6 +42,7 @@ void append_axes(float cosine, float sharpness1, float sharpness2, std::vector<f
 void append_arguments(const SgQuestion& q, std::span<const float> row, std::vector<float>* out) {
   if (q.function == SgFunction::product) return append_axes(row[0], row[1], row[2], out);
   if (q.function == SgFunction::value) return append_axes(row[0], 0, row[1], out);
+  if (q.function == SgFunction::shade) return sg_shade::append_arguments(row, out);
   out->insert(out->end(), row.begin(), row.end());
 }
 
@@ -94,6 +93,8 @@ void exact_results(const SgQuestion& q, const float* a, double* out) {
     case SgFunction::exp:
       out[0] = std::exp(static_cast<double>(a[0]));
       return;
+    case SgFunction::shade:  // in error_of_shade(), with its condition
+      return;
   }
 }
 
@@ -103,6 +104,14 @@ double error_of(SgError kind, double value, double exact) {
   if (kind == SgError::of_one_more) return difference / (1 + size);
   if (size < kLeastNormal) return std::abs(value) <= 2 * kLeastNormal ? 0 : difference / kLeastNormal;
   return difference / size / (kind == SgError::exponential ? 1 + std::abs(std::log(size)) : 1);
+}
+
+// Of one row; the exact value goes to *exact.
+double error_of_shade(const SgQuestion& q, const float* arguments, double value, double* exact) {
+  const sg_shade::Answer answer = sg_shade::answer(arguments, q.kernel);
+  *exact = answer.value;
+  const double difference = std::max(std::abs(value - answer.value) - answer.floor, 0.0);  // a NaN stays one
+  return difference > 0 ? difference / answer.scale : difference;
 }
 
 // Calls work(i) for i in [0, count) on all cores, some at a time.
@@ -133,125 +142,6 @@ ShaderDefines defines(const SgQuestion& q) {
 
 }  // namespace
 
-const std::vector<SgFunctionInfo>& sg_functions() {
-  using enum SgError;
-  static const std::vector<std::string> asg = {"axis_x", "axis_y", "axis_z", "sharpness", "eta_x", "eta_y"};
-  static const std::vector<SgFunctionInfo> all = {
-      {"clamped_cosine",
-       {"cosine", "sharpness"},
-       {"value"},
-       absolute,
-       0,
-       1,
-       "L(v,κ) = ∫G max(ω·n,0)/∫G by --kernel, against quadrature; cosine = v·n"},
-      {"integral", {"sharpness"}, {"value"}, relative, 0, kInfinity, "A(λ), the integral of an SG"},
-      {"product",
-       {"cosine", "sharpness1", "sharpness2"},
-       {"log_amplitude", "sharpness"},
-       relative,
-       -kInfinity,
-       0,
-       "product of two SGs with this cosine between their axes"},
-      {"hemisphere",
-       {"cosine", "sharpness"},
-       {"value"},
-       absolute,
-       0,
-       1,
-       "s(v·n,κ), the normalised hemispherical integral: --kernel meder-bruederlin or tokuyoshi2022"},
-      {"asg_product",
-       asg,
-       {"value"},
-       relative,
-       0,
-       kInfinity,
-       "∫ SG × ASG of an SG with this axis in the ASG's frame; exponent in twice the precision"},
-      {"toksvig_roundtrip", {"sharpness"}, {"value"}, of_one_more, 0, kInfinity, "λ to 1-r and back"},
-      {"value",
-       {"cosine", "sharpness"},
-       {"value"},
-       absolute,
-       0,
-       1,
-       "G(ω;ξ,λ) of a direction at this cosine from the axis"},
-      {"banerjee", {"complement"}, {"value"}, of_one_more, 0, kInfinity, "κ of a vMF lobe from 1-r"},
-      {"vmf_complement", {"sharpness"}, {"value"}, relative, 0, 1, "1-r of a vMF lobe"},
-      {"erf", {"x"}, {"value"}, relative, -1, 1, "the error function"},
-      {"erfc", {"x"}, {"value"}, exponential, 0, 2, "its complement"},
-      {"expm1_over_x", {"x"}, {"value"}, relative, 0, kInfinity, "(e^x-1)/x"},
-      {"exp", {"x"}, {"value"}, relative, 0, kInfinity, "e^x"},
-      {"asg_product_shading",
-       asg,
-       {"value"},
-       exponential,
-       0,
-       kInfinity,
-       "asg_product as the pixels evaluate it"},
-  };
-  return all;
-}
-
-const char* error_name(SgError error) {
-  switch (error) {
-    case SgError::absolute:
-      return "abs_error";
-    case SgError::relative:
-      return "rel_error";
-    case SgError::of_one_more:
-      return "error_over_1_plus_exact";
-    case SgError::exponential:
-      return "rel_error_over_1_plus_exponent";
-  }
-  return "";
-}
-
-SgFunction sg_function(const std::string& name) {
-  std::vector<std::string> names;
-  for (const auto& f : sg_functions()) {
-    if (f.name == name) return static_cast<SgFunction>(names.size());
-    names.push_back(f.name);
-  }
-  throw fail(ErrorKind::usage, "no function '{}'{}", name, suggestion(name, names));
-}
-
-exact::DiffuseKernel diffuse_kernel(const std::string& name) {
-  const auto& names = exact::diffuse_kernel_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<exact::DiffuseKernel>(found - names.begin());
-  throw fail(ErrorKind::usage, "no diffuse kernel '{}'{}", name, suggestion(name, names));
-}
-
-std::pair<double, double> sg_domain(const SgQuestion& q, const std::string& column) {
-  if (column == "cosine" || column == "axis_x" || column == "axis_y") return {-1, 1};
-  if (column == "axis_z") return {0, 1};
-  if (column == "complement") return {0x1p-41, 1};
-  if (column.starts_with("eta")) return {1e-6f, kSharpest};
-  if (column == "x") {
-    return q.function == SgFunction::exp || q.function == SgFunction::expm1_over_x ? std::pair(-0x1p42, 88.0)
-                                                                                   : std::pair(-100.0, 100.0);
-  }
-  const bool diverges =
-      q.function == SgFunction::clamped_cosine && q.kernel == exact::DiffuseKernel::pettineo_hill;
-  return {diverges ? 1e-6f : 0, kSharpest};
-}
-
-std::string out_of_domain(const SgQuestion& q, std::span<const float> row) {
-  const auto& columns = q.info().columns;
-  double norm2 = 0;
-  for (size_t k = 0; k < columns.size(); ++k) {
-    const auto [least, most] = sg_domain(q, columns[k]);
-    if (!(row[k] >= least && row[k] <= most)) {
-      return fmt::format("{} is {}, not in [{}, {}]", columns[k], row[k], static_cast<float>(least),
-                         static_cast<float>(most));
-    }
-    if (columns[k].starts_with("axis")) norm2 += static_cast<double>(row[k]) * row[k];
-  }
-  const bool axis = columns[0] == "axis_x";
-  return axis && std::abs(norm2 - 1) > 1e-4
-             ? fmt::format("the axis has length {:.4g}, not 1", std::sqrt(norm2))
-             : "";
-}
-
 SgEvaluator::SgEvaluator(Device& device, const SgQuestion& question, const std::filesystem::path& kernel)
     : kernels_(device),
       recorder_(device),
@@ -270,37 +160,39 @@ std::vector<float> SgEvaluator::on_device(std::span<const float> arguments) {
   return out.download<float>(results);
 }
 
-SgAnswers SgEvaluator::evaluate(std::span<const float> rows) {
-  const size_t columns = question_.info().columns.size(), wide = device_columns(question_);
-  const size_t count = rows.size() / columns;
-  SgAnswers a;
-  a.results = question_.info().results.size();
-  a.exact.resize(count * a.results);
-  a.error.resize(count);
+std::vector<float> SgEvaluator::values(std::span<const float> rows) {
+  const size_t columns = question_.info().columns.size(), count = rows.size() / columns;
+  std::vector<float> all;
   for (size_t from = 0; from < count; from += kChunkRows) {
-    const size_t part = std::min(kChunkRows, count - from);
     std::vector<float> arguments;
-    for (size_t i = from; i < from + part; ++i) {
+    for (size_t i = from; i < std::min(from + kChunkRows, count); ++i) {
       append_arguments(question_, rows.subspan(i * columns, columns), &arguments);
     }
-    const std::vector<float> values = on_device(arguments);
-    a.values.insert(a.values.end(), values.begin(), values.end());
-    on_all_cores(part, [&](size_t i) {
-      const size_t at = (from + i) * a.results;
-      exact_results(question_, &arguments[i * wide], &a.exact[at]);
-      a.error[from + i] = error_of(question_.info().error, a.values[at], a.exact[at]);
-    });
+    const std::vector<float> part = on_device(arguments);
+    all.insert(all.end(), part.begin(), part.end());
   }
-  return a;
+  return all;
 }
 
-std::string impossible(const SgQuestion& q, const SgAnswers& answers, size_t i) {
-  const double value = answers.values[i * answers.results];
-  if (std::isnan(value)) return "NaN";
-  if (std::isinf(value)) return "infinite";
-  if (value < q.info().least)
-    return q.info().least == 0 ? "negative" : fmt::format("below {}", q.info().least);
-  return value > q.info().most ? fmt::format("above {}", q.info().most) : "";
+SgAnswers SgEvaluator::evaluate(std::span<const float> rows) {
+  const size_t columns = question_.info().columns.size(), count = rows.size() / columns;
+  SgAnswers a;
+  a.results = question_.info().results.size();
+  a.values = values(rows);
+  a.exact.resize(count * a.results);
+  a.error.resize(count);
+  on_all_cores(count, [&](size_t i) {
+    std::vector<float> arguments;
+    append_arguments(question_, rows.subspan(i * columns, columns), &arguments);
+    const size_t at = i * a.results;
+    if (question_.function == SgFunction::shade) {
+      a.error[i] = error_of_shade(question_, arguments.data(), a.values[at], &a.exact[at]);
+      return;
+    }
+    exact_results(question_, arguments.data(), &a.exact[at]);
+    a.error[i] = error_of(question_.info().error, a.values[at], a.exact[at]);
+  });
+  return a;
 }
 
 }  // namespace vsglbench

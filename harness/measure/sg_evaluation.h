@@ -29,12 +29,14 @@ enum class SgFunction {
   expm1_over_x,
   exp,
   asg_product_shading,
+  shade,
 };
 
 // How far a value is from the exact one: |difference|; that over |exact|; that over 1+|exact|; or over
-// |exact| times 1 + the exponent that exact = e^{-exponent} has. Where |exact| is below single precision's
-// normal numbers, 0 is as good as it.
-enum class SgError { absolute, relative, of_one_more, exponential };
+// |exact| times 1 + the exponent that exact = e^{-exponent} has; or over the scale of sg_shade.h, which has
+// the condition of the problem in it. Where |exact| is below single precision's normal numbers, 0 is as good
+// as it.
+enum class SgError { absolute, relative, of_one_more, exponential, conditioned };
 
 struct SgFunctionInfo {
   std::string name;
@@ -49,9 +51,10 @@ const char* error_name(SgError error);
 
 struct SgQuestion {
   SgFunction function = SgFunction::clamped_cosine;
-  exact::DiffuseKernel kernel = exact::DiffuseKernel::cosine;  // of clamped_cosine and hemisphere
+  exact::DiffuseKernel kernel = exact::DiffuseKernel::cosine;  // where has_kernel()
   bool has_kernel() const {
-    return function == SgFunction::clamped_cosine || function == SgFunction::hemisphere;
+    using enum SgFunction;
+    return function == clamped_cosine || function == hemisphere || function == shade;
   }
   const std::string& kernel_name() const {
     return exact::diffuse_kernel_names()[static_cast<size_t>(kernel)];
@@ -81,6 +84,8 @@ class SgEvaluator {
   const SgQuestion& question() const { return question_; }
   // rows.size() / columns rows, row-major, each within its domain; in chunks that fit the device.
   SgAnswers evaluate(std::span<const float> rows);
+  // The device's results alone, row-major.
+  std::vector<float> values(std::span<const float> rows);
 
  private:
   std::vector<float> on_device(std::span<const float> arguments);

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "measure/sg_shade.h"
+
 namespace vsglbench {
 namespace {
 
@@ -49,7 +51,60 @@ std::vector<double> asg_row(Draw& draw) {
           eta_y};
 }
 
+// At which e^{-x} with x up to 80 is left of a lobe's product with the light's spread; some facing, opposed
+// or anywhere.
+double lobe_angle(Draw& draw, double sharpness, double spread) {
+  const double which = draw.uniform(), joint = sharpness > 0 ? spread / (spread / sharpness + 1) : 0;
+  if (which < 0.1) return 0;
+  if (which < 0.2) return std::numbers::pi_v<float>;
+  if (which < 0.3 || joint == 0) return std::numbers::pi * draw.uniform();
+  return std::min<double>(std::sqrt(2 * draw.log_uniform(1e-6, 80) / joint), std::numbers::pi_v<float>);
+}
+
+// In the order of sg_shade::columns(). Half of the lights are near the mirror direction.
+std::vector<double> shade_row(Draw& draw) {
+  const double distance = draw.within(1e-6, 1e6),
+               view = draw.uniform() < 0.1 ? draw.cosine() : std::abs(draw.cosine());
+  const double kind = draw.uniform(), spread_drawn = draw.log_uniform(1e-6, 0x1p41);
+  const double variance = kind < 0.1   ? 0
+                          : kind < 0.6 ? std::min(distance * distance / spread_drawn, 1e6)
+                                       : draw.log_uniform(1e-12, 1e6);
+  const double spread = variance > 0 ? std::min(distance * distance / variance, 0x1p41) : 0x1p41;
+  const bool mirror = draw.uniform() < 0.5;
+  const double azimuth =
+      draw.uniform() < 0.5 ? 1 - draw.log_uniform(1e-7, 1) : std::floor(2 * draw.uniform());
+  const double light =
+      mirror ? std::clamp(view + draw.sign() * draw.log_uniform(1e-7, 1), -1.0, 1.0) : draw.cosine();
+  const auto unit = [&] {
+    return draw.uniform() < 0.2 ? std::floor(2 * draw.uniform()) : draw.log_uniform(1e-3, 1);
+  };
+  const auto turn = [&] { return std::numbers::pi_v<float> * (2 * draw.uniform() - 1); };
+  const double sharpness1 = draw.within(0, 0x1p41), sharpness2 = draw.within(0, 0x1p41);
+  const double most = sg_shade::domain("diffuse_intensity").second;
+  const double intensity1 = draw.within(0, 1) > 0 ? draw.log_uniform(1e-20, most) : 0;
+  const double intensity2 = std::clamp(intensity1 * draw.log_uniform(1e-6, 1e6), 1e-20, most);
+  const double ndf = draw.uniform() < 0.5 ? draw.within(1e-3f, 1) : -draw.within(1, 65535);
+  return {distance,
+          variance,
+          light,
+          mirror ? std::numbers::pi_v<float> * azimuth : turn(),
+          lobe_angle(draw, sharpness1, spread),
+          turn(),
+          sharpness1,
+          intensity1,
+          lobe_angle(draw, sharpness2, spread),
+          turn(),
+          sharpness2,
+          intensity2,
+          view,
+          unit(),
+          unit(),
+          ndf,
+          std::floor(2 * draw.uniform())};
+}
+
 std::vector<double> random_row(const SgQuestion& q, Draw& draw) {
+  if (q.function == SgFunction::shade) return shade_row(draw);
   if (q.info().columns[0] == "axis_x") return asg_row(draw);
   std::vector<double> row;
   for (const auto& column : q.info().columns) {

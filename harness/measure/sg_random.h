@@ -11,7 +11,7 @@ namespace vsglbench {
 
 // `count` rows. Sharpnesses are log-uniform in [1e-6, 2^41], some 0 and some at the bound; of the cosines
 // half are uniform, the others crowd towards 0 and ±1 or are there. SG × ASG: the axis is where the result is
-// no 0.
+// no 0. Shading: half of the lights are near the mirror direction, most lobes where they give light.
 std::vector<float> random_rows(const SgQuestion& question, size_t count, uint64_t seed);
 
 struct ErrorSpread {

@@ -131,7 +131,7 @@ TEST(Generate, WithAsManyLightsAsTexelsEachIsATexel) {
   size_t lit = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const auto fixed = lattice_fixed(i, count, {0, 0});
-    const auto t = pyramid.warp((fixed.x >> 8) * 0x1p-24, (fixed.y >> 8) * 0x1p-24);
+    const auto t = pyramid.warp(((fixed.x >> 9) + 0.5) * 0x1p-23, ((fixed.y >> 9) + 0.5) * 0x1p-23);
     const auto texel = oracle::make_vsgl(oracle::texel_sums(half, t.x, t.y), 1);
     EXPECT_EQ(lights[i].level, 0);
     if (!(texel.power > 0)) {

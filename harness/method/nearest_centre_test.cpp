@@ -209,7 +209,7 @@ TEST(CentreSampler, ChoosesTheTexelsThatTheWarpDoes) {
     uint32_t apart = 0;
     for (uint32_t i = 0; i < count; ++i) {
       const auto fixed = lattice_fixed(i, count, NearestBench::kShift);
-      const glm::uvec2 t = pyramid.warp((fixed.x >> 8) * 0x1p-24, (fixed.y >> 8) * 0x1p-24);
+      const glm::uvec2 t = pyramid.warp(((fixed.x >> 9) + 0.5) * 0x1p-23, ((fixed.y >> 9) + 0.5) * 0x1p-23);
       const glm::vec4 expected(query_of(positions, size, dimensions, t.y * size.x + t.x), 1);
       apart += centres[i] != expected;
     }

@@ -190,7 +190,7 @@ glm::uvec2 Pyramid::warp(double ux, double uy) const {
 
 Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count,
                     glm::uvec2 fixed) {
-  const glm::uvec2 t = pyramid.warp((fixed.x >> 8) * 0x1p-24, (fixed.y >> 8) * 0x1p-24);
+  const glm::uvec2 t = pyramid.warp(((fixed.x >> 9) + 0.5) * 0x1p-23, ((fixed.y >> 9) + 0.5) * 0x1p-23);
   const double x = t.x + 0.5, y = t.y + 0.5, m = double(half.emitter.width) * half.emitter.height;
   double level = 0, share = 0;
   if (rule == Rule::fis) {

@@ -2,89 +2,14 @@
 // brute force. Small frames; RSMs of 32² to 128².
 #include <gtest/gtest.h>
 
-#include "base/file.h"
-#include "frame/frame.h"
-#include "image/metrics.h"
-#include "method/registry.h"
-#include "reference/reference.h"
-#include "reference/visibility.h"
-#include "scene/scene_file.h"
+#include "run/laboratory.h"
 #include "scene/surface.h"
 
 using namespace vsglbench;
 
 namespace {
 
-constexpr uint32_t kWidth = 96, kHeight = 54;
-
-// One scene, its device data and its references, shared by the tests below.
-class Laboratory {
- public:
-  explicit Laboratory(const std::string& name)
-      : scene(load_scene(name, {data_root() / "scenes", {}})),
-        tracer(scene),
-        kernels(device()),
-        stage(device(), kernels, scene) {}
-
-  static Device& device() {
-    static Device d;
-    return d;
-  }
-
-  Image render(const std::string& method, const Json& own, uint32_t rsm, uint32_t lights,
-               Visibility visibility) {
-    FrameParameters p{.width = kWidth,
-                      .height = kHeight,
-                      .rsm = rsm,
-                      .lights = lights,
-                      .importance_lights = 256,
-                      .visibility = visibility};
-    const MethodInfo& info = load_method(method, device().info());
-    Frame* self = nullptr;
-    Frame frame(stage, info, resolve_parameters(info, own), p,
-                [&](const std::vector<LightPoint>& points) { return bits(*self, points); });
-    self = &frame;
-    frame.render(0);
-    mask = frame.surface_mask();
-    return frame.indirect();
-  }
-
-  const ReferenceResult& reference(bool occlusion) {
-    auto& slot = references_[occlusion];
-    if (!slot) {
-      slot = compute_reference(tracer,
-                               {.width = kWidth, .height = kHeight, .samples = 2048, .occlusion = occlusion});
-    }
-    return *slot;
-  }
-
-  Errors against_reference(const Image& image, bool occlusion) {
-    const auto& r = reference(occlusion);
-    Mask both = mask;
-    for (size_t i = 0; i < both.size(); ++i) both[i] = both[i] && r.mask[i];
-    return measure_errors(image, r.mean, both);
-  }
-
-  const Scene scene;
-  const Tracer tracer;
-  KernelLibrary kernels;
-  Stage stage;
-  Mask mask;
-
- private:
-  std::vector<uint32_t> bits(Frame& frame, const std::vector<LightPoint>& points) {
-    const auto position = download_map(frame.gbuffer().maps[0]),
-               normal = download_map(frame.gbuffer().maps[2]);
-    std::vector<ReceiverPoint> receivers;
-    for (size_t i = 0; i < position.size(); ++i) {
-      receivers.push_back({glm::vec3(position[i]), glm::vec3(normal[i]), position[i].w > 0});
-    }
-    std::vector<TargetPoint> targets;
-    for (const auto& p : points) targets.push_back({p.position, p.stop_short});
-    return compute_visibility(tracer, receivers, kWidth, kHeight, targets).words;
-  }
-  std::map<bool, std::optional<ReferenceResult>> references_;
-};
+constexpr uint32_t kWidth = Laboratory::kWidth, kHeight = Laboratory::kHeight;
 
 Laboratory& cornell() {
   static Laboratory lab("cornell");

@@ -76,7 +76,7 @@ void MeshCollector::add(Mesh mesh, uint32_t material) {
   if (mesh.tangents.empty()) make_tangents(&mesh);
   const uint32_t first_vertex = static_cast<uint32_t>(positions_.size());
   const uint32_t first_triangle = static_cast<uint32_t>(scene_->triangles.size());
-  positions_.insert(positions_.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const glm::dvec3& p : mesh.positions) positions_.push_back(p + scene_->offset);
   scene_->normals.insert(scene_->normals.end(), mesh.normals.begin(), mesh.normals.end());
   scene_->tangents.insert(scene_->tangents.end(), mesh.tangents.begin(), mesh.tangents.end());
   scene_->uvs.insert(scene_->uvs.end(), mesh.uvs.begin(), mesh.uvs.end());

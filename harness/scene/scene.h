@@ -67,6 +67,9 @@ struct Camera {
 struct Scene {
   std::string name;  // "cornell", or "colonnade:cut" with a view
   glm::dvec3 origin{0};
+  // Moves everything, in metres: added in double to all geometry, lights and cameras as they are read, before
+  // they become offsets from `origin`.
+  glm::dvec3 offset{0};
   std::vector<glm::vec3> positions, normals;  // one a vertex; normals are unit
   std::vector<glm::vec4> tangents;            // xyz unit, w = ±1: bitangent = w cross(normal, tangent)
   std::vector<glm::vec2> uvs;

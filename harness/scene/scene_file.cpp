@@ -173,6 +173,9 @@ Scene load_scene(const std::string& name_or_path, const SceneOptions& options) {
   if (view != root.at("default_view").get<std::string>()) scene.name += ":" + view;
 
   const double unit = root.value("unit", 1.0);
+  if (root.contains("offset")) {
+    for (int k = 0; k < 3; ++k) scene.offset[k] = unit * root["offset"][k].get<double>();
+  }
   load_geometry(document, options, unit, &scene);
   apply_overrides(document, &scene);
   apply_view(document, "/views/" + pointer_token(view), root.value("view_unit", unit), &scene);

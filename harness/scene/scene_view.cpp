@@ -39,7 +39,9 @@ class ViewReader {
     if (!(glm::length(out) * unit_ < kLargestLength)) throw document_.error(at, "is too large");
     return out;
   }
-  glm::vec3 point(const std::string& at) const { return glm::vec3(unit_ * vector(at) - scene_->origin); }
+  glm::vec3 point(const std::string& at) const {
+    return glm::vec3(unit_ * vector(at) + scene_->offset - scene_->origin);
+  }
   float radians(const std::string& at) const {
     return static_cast<float>(value(at).get<double>() * std::numbers::pi / 180);
   }

@@ -37,7 +37,7 @@ Receiver make_receiver(Surface s) {
 vec3 receiver_specular(Receiver r, Sg sg, float cosine) {
   vec3 local = vec3(dot(sg.axis, r.x), dot(sg.axis, r.y), dot(sg.axis, r.z));
   float lobe = asg_product(local, sg.sharpness, r.eta_x, r.eta_y);
-  float vh = sqrt(max(0.5 + 0.5 * dot(sg.axis, r.surface.view), 0.0));  // cosine of the half angle
+  float vh = 0.5 * length(sg.axis + r.surface.view);  // cosine of the half angle
   float c = r.peak * smith_visibility(cosine, r.nv, r.alpha) * cosine;
   return fresnel(r.surface.f0, vh) * (c * lobe);
 }

@@ -19,7 +19,7 @@
 #endif
 
 // Reflected radiance from incoming radiance c·G(ω;ξ,λ).
-vec3 shade_sg(Receiver r, vec3 amplitude, Sg sg) {
+vec3 shade_sg(Receiver r, float amplitude, Sg sg) {
   // Diffuse: Rd/π A(λ) L(ξ,λ); the paper's L is the cosine pulled out of the integral [App. C.2]. Unlike the
   // paper, A(λ) stays exact: its 2π/λ grows without bound as λ → 0.
   float nl = dot(sg.axis, r.surface.normal);
@@ -34,8 +34,8 @@ vec3 shade_vsgl16(Receiver r, Vsgl light, vec3 direction, float distance2, float
   float log_d, log_s;
   Sg d = sg_product(direction, sharpness, -light.diffuse_axis, light.diffuse_sharpness, log_d);
   Sg s = sg_product(direction, sharpness, -light.specular_axis, light.specular_sharpness, log_s);
-  vec3 sum = shade_sg(r, light.diffuse * (scale * exp(log_d)), d);
-  return sum + shade_sg(r, light.specular * (scale * exp(log_s)), s);
+  // The lights' own intensities come last: `scale` alone reaches 3.5e23, and what follows makes it small again.
+  return light.diffuse * shade_sg(r, scale * exp(log_d), d) + light.specular * shade_sg(r, scale * exp(log_s), s);
 }
 
 // σ² as VARIANCE says, and no smaller than λ_σ <= 2^41 asks for: nothing overflows.

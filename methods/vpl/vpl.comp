@@ -9,7 +9,7 @@ Vpl make_light(uint i) {
   Texel t;
   bool drawn = draw(i, d);
   bool surface = load_texel(emitter, ivec2(d.texel), t);
-  Vpl light = make_vpl(t, drawn && surface ? d.share : 0.0);
-  light.clamp = parameter[0];
-  return light;
+  Vpl v = make_vpl(t, drawn && surface ? d.share : 0.0);
+  v.clamp = parameter[0];
+  return v;
 }

@@ -1,0 +1,36 @@
+// Tokuyoshi 2022, "Accurate Diffuse Lighting from Spherical Gaussian Lights" [SGL22], figure by figure.
+#pragma once
+
+#include "figure/figure.h"
+#include "image/image.h"
+#include "image/metrics.h"
+#include "shaders/sg_exact.h"
+
+namespace vsglbench::sgl22 {
+
+// The diffuse kernels, in the order of exact::diffuse_kernel_names().
+constexpr size_t kKernels = 5;
+inline const std::string& name(exact::DiffuseKernel kernel) {
+  return exact::diffuse_kernel_names()[static_cast<size_t>(kernel)];
+}
+
+// Fig. 1: a sharp SG light close to a wall. Config: width, height, extent (of the wall's width, m),
+// light_height (m above it), light_sigma (m).
+FigureOutput wall(const FigureInputs& inputs);
+// Fig. 2: SG approximations of the clamped cosine minus itself. Config: steps.
+FigureOutput clamped_cosine(const FigureInputs& inputs);
+// Fig. 3: RMSE of the normalised hemispherical integral over sharpness. Config: least, most, steps, cosines.
+FigureOutput hemisphere(const FigureInputs& inputs);
+// Fig. 4: a frame lit by few VSGLs: time, black splotches, error. Config: scene, method, N, parameters, rsm,
+// width, height, image, repetitions, splotch.
+FigureOutput lights(const FigureInputs& inputs);
+
+// The SMAPE of `image`, and the pictures of all kernels beside the reference's.
+struct KernelImages {
+  Image reference;
+  Mask mask;
+  std::vector<Image> images;  // one a kernel
+};
+Bitmap picture(const KernelImages& kernels, const std::string& title, const std::string& reference_detail);
+
+}  // namespace vsglbench::sgl22

@@ -1,0 +1,241 @@
+// [SGL22] Fig. 4: a scene's indirect light from few virtual SG lights, without visibility, by every diffuse
+// kernel: the time of the shading pass, the error against quadrature, and black splotches: pixels darker than
+// a share of what quadrature says, where that is bright enough to be seen.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "figure/sgl22.h"
+#include "frame/frame.h"
+#include "measure/statistics.h"
+#include "method/registry.h"
+#include "reference/parallel.h"
+#include "scene/scene_file.h"
+#include "shaders/shading_exact.h"
+
+namespace vsglbench::sgl22 {
+namespace {
+
+// One frame a kernel, of one size; they share targets and scratch memory.
+std::vector<std::unique_ptr<Frame>> make_frames(Stage& stage, const Json& config, uint32_t width,
+                                                uint32_t height) {
+  const MethodInfo& method = load_method(config["method"], stage.device.info());
+  const Json parameters = resolve_parameters(method, config.value("parameters", Json::object()));
+  FrameParameters p{.width = width,
+                    .height = height,
+                    .rsm = config["rsm"],
+                    .lights = config["N"],
+                    .visibility = Visibility::none,
+                    .importance = Importance::flux};
+  std::vector<std::unique_ptr<Frame>> frames;
+  for (const auto& kernel : exact::diffuse_kernel_names()) {
+    p.shading["diffuse"] = kernel;
+    frames.push_back(std::make_unique<Frame>(stage, method, parameters, p, nullptr));
+    if (frames.back()->light_kind() == LightKind::vsgl) continue;
+    throw fail(ErrorKind::config, "sgl22-4: {} makes no VSGLs; use a method that does, such as two-vsgl",
+               method.name);
+  }
+  return frames;
+}
+
+// What the camera sees, on the host, and its light by quadrature in double precision.
+class ExactPixels {
+ public:
+  explicit ExactPixels(const Frame& frame) : camera_(frame.camera()), lights_(frame.vsgls()) {
+    const auto& targets = frame.gbuffer().maps;
+    for (size_t i = 0; i < maps_.size(); ++i) maps_[i] = download_map(targets[i]);
+  }
+  bool surface(size_t pixel) const { return maps_[0][pixel].w > 0; }
+  glm::vec3 radiance(size_t pixel) const {
+    const glm::dvec3 position(maps_[0][pixel]);
+    const glm::dvec3 view = camera_.perspective != 0 ? glm::normalize(glm::dvec3(camera_.position) - position)
+                                                     : -glm::dvec3(camera_.forward);
+    const exact::Surface s{position,        maps_[1][pixel], maps_[2][pixel],  view,
+                           maps_[3][pixel], maps_[4][pixel], maps_[1][pixel].w};
+    glm::dvec3 sum(0);
+    for (const auto& light : lights_) sum += exact::shade_vsgl(s, light, {.quadrature = true});
+    return sum;
+  }
+
+ private:
+  gpu::Emitter camera_;
+  std::vector<gpu::Vsgl> lights_;
+  std::array<std::vector<glm::vec4>, 5> maps_;
+};
+
+KernelImages small_images(Stage& stage, const Json& config) {
+  const auto least = [&](const char* key) {
+    return std::min(config["image"][key].get<uint32_t>(), config[key].get<uint32_t>());
+  };
+  const uint32_t width = least("width"), height = least("height");
+  KernelImages out;
+  for (const auto& frame : make_frames(stage, config, width, height)) {
+    frame->render(0);
+    out.images.push_back(frame->indirect());
+    if (!out.mask.empty()) continue;
+    out.mask = frame->surface_mask();
+    const ExactPixels exact(*frame);
+    out.reference = Image(width, height);
+    parallel_for(out.reference.pixels.size(), 0, [&](uint64_t i, unsigned) {
+      if (exact.surface(i)) out.reference.pixels[i] = exact.radiance(i);
+    });
+  }
+  return out;
+}
+
+double median_luminance(const KernelImages& images) {
+  std::vector<double> all;
+  for (size_t i = 0; i < images.mask.size(); ++i) {
+    if (images.mask[i] != 0) all.push_back(luminance(images.reference.pixels[i]));
+  }
+  if (all.empty()) throw fail(ErrorKind::case_failed, "sgl22-4: the camera sees no surface");
+  return median(all);
+}
+
+// The frame at its full size.
+struct Full {
+  std::vector<std::vector<double>> shade_ms;  // by kernel, one a repetition
+  std::vector<uint64_t> splotches;            // by kernel, pixels
+};
+
+double shade_time(const FrameTimes& times) {
+  for (const PassTime& pass : times.passes) {
+    if (pass.name == "shade") return pass.ms;
+  }
+  throw std::logic_error("a frame without a shade pass");
+}
+
+double middle_of(std::array<double, kKernels> luminances) {
+  std::ranges::nth_element(luminances, luminances.begin() + kKernels / 2);
+  return luminances[kKernels / 2];
+}
+
+// What a splotch is, and whether the kernels' median, of which three follow the integral closely, is within a
+// factor of two of quadrature wherever one may be.
+struct Splotch {
+  double share, least;
+  bool median_is_close = true;
+};
+
+Splotch splotch_of(const Json& config, const KernelImages& images) {
+  const Json& keys = config["splotch"];
+  Splotch splotch{keys["share"], keys["least"].get<double>() * median_luminance(images)};
+  for (size_t i = 0; i < images.mask.size(); ++i) {
+    std::array<double, kKernels> all;
+    for (size_t k = 0; k < kKernels; ++k) all[k] = luminance(images.images[k].pixels[i]);
+    const double truth = luminance(images.reference.pixels[i]), middle = middle_of(all);
+    if (images.mask[i] == 0 || truth < splotch.least) continue;
+    splotch.median_is_close &= middle > 0.5 * truth && middle < 2 * truth;
+  }
+  return splotch;
+}
+
+// By kernel. Quadrature is asked only where the median leaves a doubt.
+std::vector<uint64_t> count_splotches(const std::vector<std::vector<float>>& luminances,
+                                      const ExactPixels& exact, const Splotch& splotch) {
+  std::vector<std::atomic<uint64_t>> counts(kKernels);
+  parallel_for(luminances[0].size(), 0, [&](uint64_t i, unsigned) {
+    if (!exact.surface(i)) return;
+    std::array<double, kKernels> all;
+    for (size_t k = 0; k < kKernels; ++k) all[k] = luminances[k][i];
+    const double middle = middle_of(all), bound = splotch.share * middle;
+    const auto sound = [&](double value) { return value >= 2 * bound; };
+    const auto clear = [&](double value) { return sound(value) || value < 0.5 * bound; };
+    if (splotch.median_is_close && (middle < 0.5 * splotch.least || std::ranges::all_of(all, sound))) return;
+    const bool no_doubt =
+        splotch.median_is_close && middle > 2 * splotch.least && std::ranges::all_of(all, clear);
+    const double truth = no_doubt ? middle : luminance(exact.radiance(i));
+    if (truth < splotch.least) return;
+    for (size_t k = 0; k < kKernels; ++k) counts[k] += !(all[k] >= splotch.share * truth);
+  });
+  return {counts.begin(), counts.end()};
+}
+
+Full full_frames(Stage& stage, const Json& config, const Splotch& splotch) {
+  const auto frames = make_frames(stage, config, config["width"], config["height"]);
+  Full full;
+  full.shade_ms.resize(kKernels);
+  std::vector<std::vector<float>> luminances;
+  for (const auto& frame : frames) {
+    frame->render(0);  // kernels are compiled now
+    std::vector<float> one;
+    for (const glm::vec3& pixel : frame->indirect().pixels) one.push_back(luminance(pixel));
+    luminances.push_back(std::move(one));
+  }
+  full.splotches = count_splotches(luminances, ExactPixels(*frames[0]), splotch);
+  for (int i = 0; i < config["repetitions"].get<int>(); ++i) {
+    for (size_t k = 0; k < kKernels; ++k) full.shade_ms[k].push_back(shade_time(frames[k]->render(0)));
+  }
+  return full;
+}
+
+std::vector<Claim> claims_of(const Full& full, const std::vector<double>& ms,
+                             const std::vector<double>& smape) {
+  using enum exact::DiffuseKernel;
+  const auto at = [](exact::DiffuseKernel kernel) { return static_cast<size_t>(kernel); };
+  const size_t hill = at(pettineo_hill), meder = at(meder_bruederlin), ours = at(tokuyoshi2022);
+  const std::string place = "[SGL22] Fig. 4";
+  const std::string times = fmt::format(
+      "{:.4g} ms (pettineo-hill), {:.4g} ms (meder-bruederlin), {:.4g} ms "
+      "(tokuyoshi2022)",
+      ms[hill], ms[meder], ms[ours]);
+  const auto& black = full.splotches;
+  return {
+      {"Pettineo and Hill's method can produce black splotches", place, black[hill] > 0,
+       fmt::format("{} pixels", black[hill])},
+      {"Meder and Brüderlin's method and the new one produce none", place, black[meder] + black[ours] == 0,
+       fmt::format("{} and {} pixels", black[meder], black[ours])},
+      {"Pettineo and Hill's method is faster than both others", place,
+       ms[hill] < std::min(ms[meder], ms[ours]), times},
+      {"the new method is slightly faster than Meder and Brüderlin's", place, ms[ours] < ms[meder], times},
+      {"the new method is more accurate than Meder and Brüderlin's", place, smape[ours] < smape[meder],
+       fmt::format("SMAPE {:.3g} % against {:.3g} %", smape[ours], smape[meder])}};
+}
+
+}  // namespace
+
+FigureOutput lights(const FigureInputs& inputs) {
+  const Json& c = inputs.config;
+  const Scene scene = load_scene(c["scene"], {data_root() / "scenes", inputs.assets});
+  KernelLibrary kernels(inputs.device);
+  Stage stage(inputs.device, kernels, scene);
+  const KernelImages images = small_images(stage, c);
+  const Full full = full_frames(stage, c, splotch_of(c, images));
+
+  FigureOutput out;
+  FigureTable table{"sgl22-4",
+                    {"kernel", "origin", "width", "height", "shade_ms_median", "shade_ms_q1", "shade_ms_q3",
+                     "repetitions", "black_pixels", "smape_percent"},
+                    {}};
+  const std::string size = fmt::format("{}×{}", c["width"].get<int>(), c["height"].get<int>());
+  Plot plot{
+      .title = fmt::format("{}, {} VSGLs: time and error of the diffuse kernels", scene.name, c["N"].dump()),
+      .x = {"SMAPE against quadrature / %", true},
+      .y = {fmt::format("shade pass at {} / ms", size), false, true},
+      .notes = {fmt::format("{}; medians of {} interleaved repetitions. Both lobes, diffuse and specular.",
+                            inputs.device.info().name, c["repetitions"].dump())}};
+  std::vector<double> ms, smape;
+  for (size_t k = 0; k < kKernels; ++k) {
+    const Summary times = summarize(full.shade_ms[k]);
+    ms.push_back(times.median);
+    smape.push_back(measure_errors(images.images[k], images.reference, images.mask).smape);
+    const std::string kernel = exact::diffuse_kernel_names()[k];
+    table.add(kernel, std::string("measured"), c["width"].get<double>(), c["height"].get<double>(),
+              times.median, times.q1, times.q3, static_cast<double>(times.samples.size()),
+              static_cast<double>(full.splotches[k]), smape[k]);
+    plot.curves.push_back({kernel, {{smape[k], times.median}}, CurveStyle::points});
+  }
+  out.tables = {table};
+  out.plots = {{"sgl22-4", plot}};
+  out.images = {{"sgl22-4", picture(images, fmt::format("{}, {} VSGLs", scene.name, c["N"].dump()),
+                                    "diffuse integral by quadrature")}};
+  out.claims = claims_of(full, ms, smape);
+  return out;
+}
+
+}  // namespace vsglbench::sgl22

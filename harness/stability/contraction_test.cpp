@@ -1,0 +1,62 @@
+// The SG library's stated bounds, whether or not the device may fuse and regroup arithmetic.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "measure/sg_evaluation.h"
+#include "measure/sg_random.h"
+
+using namespace vsglbench;
+
+namespace {
+
+Device& device() {
+  static Device d;
+  return d;
+}
+
+// Largest error of random rows with $VSGLBENCH_CONTRACTION = `contraction`; NaN where a value is impossible.
+double largest_error(const SgQuestion& q, const char* contraction) {
+  ::setenv("VSGLBENCH_CONTRACTION", contraction, 1);
+  SgEvaluator evaluator(device(), q);
+  const ErrorSpread spread = error_spread(q, evaluator.evaluate(random_rows(q, 20000, 17)));
+  ::unsetenv("VSGLBENCH_CONTRACTION");
+  return spread.impossible.empty() ? spread.max : NAN;
+}
+
+// Rounding moves a largest error about; what leaves its bound grows by far more.
+constexpr double kSlack = 1.3;
+
+}  // namespace
+
+TEST(Contraction, EveryOperationByItselfKeepsTheBounds) {
+  for (const SgFunctionInfo& info : sg_functions()) {
+    const SgQuestion q{sg_function(info.name), exact::DiffuseKernel::tokuyoshi2024};
+    EXPECT_LE(largest_error(q, "never"), kSlack * largest_error(q, "")) << info.name;
+  }
+}
+
+// `precise` matters to two_sum() and two_product() of shaders/special.glsl, and so to what is compensated by
+// them: lavapipe simplifies (a+b)-a where it may. Nothing else needs it to keep its bound.
+TEST(Contraction, OnlyCompensatedSumsNeedPrecise) {
+  for (const SgFunctionInfo& info : sg_functions()) {
+    const SgQuestion q{sg_function(info.name), exact::DiffuseKernel::tokuyoshi2024};
+    const double with = largest_error(q, ""), without = largest_error(q, "always");
+    fmt::print("{:<20} with precise {:.2e}, without {:.2e}\n", info.name, with, without);
+    if (q.function == SgFunction::asg_product) {
+      EXPECT_LT(with, 4e-7);
+    } else {
+      EXPECT_LE(without, kSlack * with) << info.name;
+    }
+  }
+}
+
+TEST(Contraction, DiffuseKernelsKeepTheirErrors) {
+  for (const auto kernel : {exact::DiffuseKernel::meder_bruederlin, exact::DiffuseKernel::tokuyoshi2022,
+                            exact::DiffuseKernel::tokuyoshi2024}) {
+    const SgQuestion q{SgFunction::clamped_cosine, kernel};
+    for (const char* contraction : {"never", "always"}) {
+      EXPECT_LE(largest_error(q, contraction), kSlack * largest_error(q, "")) << q.kernel_name();
+    }
+  }
+}

@@ -1,0 +1,23 @@
+// Lights at made-up surfaces, on the device: frame/shade.comp as a frame runs it, without visibility.
+#pragma once
+
+#include "frame/conformance_lights.h"
+#include "frame/shading.h"
+#include "gpu/recorder.h"
+#include "method/made_half.h"
+
+namespace vsglbench {
+
+class MadeShading {
+ public:
+  explicit MadeShading(KernelLibrary& kernels) : kernels_(kernels), recorder_(kernels.device()) {}
+  // Radiance at each texel of `receivers`, row-major, whose emitter is the eye.
+  std::vector<glm::vec3> shade(const oracle::Half& receivers, const LightRecords& lights,
+                               const Shading& shading);
+
+ private:
+  KernelLibrary& kernels_;
+  Recorder recorder_;
+};
+
+}  // namespace vsglbench
