@@ -173,7 +173,8 @@ fs::path config_path(const std::string& name_or_path) {
 Config load_config(const fs::path& path) {
   const JsonDocument doc = JsonDocument::load(path, ErrorKind::config);
   if (doc.root().is_object() && doc.root().contains("figure")) {
-    throw doc.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`", path.stem().string()));
+    throw doc.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`",
+                                           path.stem().string()));
   }
   check_schema(doc, config_schema());
   const Json& root = doc.root();
