@@ -75,7 +75,7 @@ struct GenerateResult {
   Summary total;                      // ms of both halves in each frame
   uint64_t lights = 0, empty = 0;     // lights asked for and evaluated; those of them without flux
   std::optional<double> overlap,
-      gap;  // share of texels in several lights, in none; absent: not defined for the method
+      gap;  // mean over the RSM of lights beyond the first; share of it in none; absent: not defined for the method
   uint64_t shaders = 0, dispatches = 0, memory_bytes = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "measure/stopwatch.h"
 #include "method/registry.h"
+#include "run/coverage.h"
 
 namespace vsglbench {
 
@@ -208,6 +209,12 @@ void CaseRun::describe_lights() {
   generate.empty = without_power(frame_->vsgls()) + without_power(frame_->vpls());
   generate.shaders = frame_->method_kernels();
   generate.memory_bytes = frame_->method_bytes();
+  const uint32_t side = case_.frame.rsm;
+  const RsmShapes shapes = read_shapes(frame_->light_shapes(), frame_->light_count(), uint64_t(side) * side);
+  if (const auto coverage = coverage_of(shapes, frame_->light_count(), side, side, {})) {
+    generate.overlap = coverage->overlap;
+    generate.gap = coverage->gap;
+  }
   // Black, and measured as such: that the reference is not is the method's error.
   if (generate.empty == generate.lights) {
     log_warning("{}: no light carries power; the method found no texel that matters to the camera", case_.id);

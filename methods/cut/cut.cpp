@@ -2,6 +2,7 @@
 // furthest apart.
 #include <algorithm>
 #include <bit>
+#include <map>
 
 #include "method/cluster_sum.h"
 #include "method/light_kernel.h"
@@ -47,6 +48,11 @@ class Cut : public Method {
     ClusterSum::SortedTexels sorted;
     steps.pass("sort", [&] { sorted = sort(r, field, target.count, ids); });
     steps.pass("sum", [&] { sum_.record(r, field, sorted, target); });
+    sorted_[field.half] = sorted;
+  }
+
+  LightShapes shapes(Half half) override {
+    return {.ids = sorted_[half].ids, .texels = sorted_[half].texels};
   }
 
  private:
@@ -126,6 +132,7 @@ class Cut : public Method {
   uint32_t per_light_;
   RadixSort sort_;
   ClusterSum sum_;
+  std::map<Half, ClusterSum::SortedTexels> sorted_;
   const Kernel &draw_, &root_, &split_one_, &split_many_, &assign_;
 };
 

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "run/config.h"
+#include "run/lights_run.h"
+
+namespace vsglbench {
+namespace {
+
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.4f}", *value) : "-"; }
+
+// 0 drawn or skipped, 1 one failed, 2 none is drawn since no scene is there.
+int print(const std::vector<LightsResult>& results) {
+  size_t width = 4;
+  for (const LightsResult& r : results) width = std::max(width, r.id.size());
+  fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}\n", "case", width, "lights", "overlap", "gap",
+             "overlap_p", "gap_p");
+  for (const LightsResult& r : results) {
+    if (r.status != Status::ok) {
+      fmt::print("{:<{}}  {}: {}\n", r.id, width, name(r.status), r.error);
+      continue;
+    }
+    const auto& c = r.coverage;
+    fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}\n", r.id, width, r.lights - r.empty,
+               c ? number(c->overlap) : "-", c ? number(c->gap) : "-",
+               number(c ? c->pdf_overlap : std::nullopt), number(c ? c->pdf_gap : std::nullopt));
+  }
+  const auto all = [&](Status s) {
+    return std::all_of(results.begin(), results.end(), [&](const auto& r) { return r.status == s; });
+  };
+  if (all(Status::skipped)) throw fail(ErrorKind::scene, "nothing is drawn: {}", results.front().error);
+  const auto failed = [](const LightsResult& r) { return r.status == Status::failed; };
+  return std::any_of(results.begin(), results.end(), failed) ? 1 : 0;
+}
+
+}  // namespace
+
+void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result) {
+  auto options = std::make_shared<LightsOptions>();
+  auto config = std::make_shared<std::string>();
+  auto format = std::make_shared<std::string>("json");
+  CLI::App* command =
+      app.add_subcommand("lights", "draw the lights of an experiment's cases, and write them as JSON or CSV");
+  command->footer(
+      "OUT/SCENE/METHOD/PARAMETERS/ of each case holds\n"
+      "  rsm.png      the PDF on the RSM, the kernels' centres and squares or the clusters [MFIS16 Fig. 1]\n"
+      "  scene.png    each light as a disk of its sigma, as the camera sees it [VSGL14 Fig. 2]\n"
+      "  lights.json  schema vsglbench.lights/1: argv, git, device, config, case, scene, method, "
+      "parameters,\n"
+      "               seed, kind (vsgl, vpl, vsl), count, empty (without power; not listed), coverage, "
+      "lights\n"
+      "or lights.csv, a row a light; and OUT/coverage.csv has a row a case. A light is\n"
+      "  VSGL      index, mean (world, m), sigma (m), power (luminance of the reflected power, W), level of "
+      "its\n"
+      "            kernel, and two lobes, diffuse and specular: axis, sharpness, amplitude (RGB, W/sr)\n"
+      "  VPL, VSL  index, position (world, m), power (luminance) and flux (RGB) that come in, W, incident, "
+      "normal,\n"
+      "            geometric_normal, brdf (diffuse, f0, ndf with alpha or exponent), radius (m), clamp "
+      "(1/m2)\n"
+      "  kernel    x, y, side in texels of the RSM, where the method has square kernels\n"
+      "coverage: overlap is the mean over the RSM of how many lights beyond the first have a point, gap the "
+      "share\n"
+      "that no light has; pdf_overlap and pdf_gap the same weighted by the PDF. Exact, but for rounding "
+      "(1e-9).\n"
+      "A config with \"measure\": \"generation\" gives all methods one PDF, any other each its own.\n"
+      "Exit codes: 0 all drawn or skipped (scene not downloaded), 1 a case failed, 2 bad usage, config, "
+      "plugin or\n"
+      "output, or all skipped, 3 no usable device.\n"
+      "Example: vsglbench lights mfis16-fig1 --case cornell/fis --case cornell/mfis/");
+  command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
+  command->add_option("--case", options->cases,
+                      "a case's id, or a part that no other id has; may come again (default: all)");
+  command->add_option("--seed", options->seed, "of the lights' lattice")->capture_default_str();
+  command->add_option("--out", options->out, "folder for the files (default reports/out/NAME/lights)");
+  command->add_option("--format", *format, "of the list of lights")
+      ->check(CLI::IsMember({"json", "csv"}))
+      ->capture_default_str();
+  command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
+  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->callback([=] {
+    options->config = config_path(*config);
+    options->csv = *format == "csv";
+    options->argv = argv;
+    result->exit_code = print(run_lights(*options));
+  });
+}
+
+}  // namespace vsglbench

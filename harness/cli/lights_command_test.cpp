@@ -1,0 +1,114 @@
+// `vsglbench lights` as a user meets it.
+#include <algorithm>
+
+#include "cli/cli_fixture.h"
+#include "image/png.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+class LightsCommand : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    config_["methods"] = {{{"method", "mfis"}}, {{"method", "kmeans2d"}}, {{"method", "vpl"}}};
+  }
+  Finished lights(std::vector<std::string> more = {}) const {
+    std::vector<std::string> all = {"lights", write_config().string(), "--out", out_.string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  }
+  fs::path folder(const std::string& method) const {
+    return out_ / "cornell" / method / "N=16,rsm=16,vis=exact";
+  }
+  Json json(const std::string& method) const {
+    return Json::parse(read_text(folder(method) / "lights.json"));
+  }
+};
+
+TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
+  const Finished f = lights({"--seed", "5"});
+  ASSERT_EQ(f.code, 0) << f.err;
+  EXPECT_EQ(f.err, "");
+  for (const char* method : {"mfis", "kmeans2d", "vpl"}) {
+    EXPECT_EQ(read_png(folder(method) / "rsm.png").width, 16u * 16 + 24) << method;
+    EXPECT_GT(read_png(folder(method) / "scene.png").width, 900u) << method;
+    const Json j = json(method);
+    expect_numbers(j);
+    EXPECT_EQ(j.at("schema"), "vsglbench.lights/1");
+    EXPECT_EQ(j.at("case"), std::string("cornell/") + method + "/N=16,rsm=16,vis=exact");
+    EXPECT_EQ(j.at("seed"), 5);
+    EXPECT_EQ(j.at("config").at("name"), "tiny");
+    EXPECT_FALSE(j.at("device").at("name").get<std::string>().empty());
+    EXPECT_EQ(j.at("lights").size() + j.at("empty").get<size_t>(), j.at("count").get<size_t>());
+    EXPECT_GT(j.at("lights").size(), 0u);
+    EXPECT_EQ(j.contains("coverage"), std::string(method) != "vpl");
+  }
+  EXPECT_TRUE(json("mfis").at("lights")[0].contains("kernel"));
+  EXPECT_EQ(json("kmeans2d").at("coverage").at("overlap"), 0);
+  EXPECT_TRUE(json("vpl").at("lights")[0].contains("brdf"));
+  const std::string table = read_text(out_ / "coverage.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
+  EXPECT_TRUE(contains(table, "\"cornell/mfis/N=16,rsm=16,vis=exact\",5,ok,16,"));
+}
+
+TEST_F(LightsCommand, CsvOfOneCase) {
+  const Finished f = lights({"--case", "mfis", "--format", "csv"});
+  ASSERT_EQ(f.code, 0) << f.err;
+  const std::string table = read_text(folder("mfis") / "lights.csv");
+  EXPECT_TRUE(contains(table, "index,mean.0,mean.1,mean.2,sigma,power,level,diffuse.axis.0,"));
+  EXPECT_FALSE(fs::exists(folder("mfis") / "lights.json") || fs::exists(folder("vpl")));
+}
+
+TEST_F(LightsCommand, RefusesWhatItDoesNotKnow) {
+  expect_refused(lights({"--case", "cornell/mfsi/N=16,rsm=16,vis=exact"}), 2,
+                 "the nearest is 'cornell/mfis/N=16,rsm=16,vis=exact'");
+  expect_refused(lights({"--case", "cornell"}), 2, "'cornell' is part of 3 cases' ids");
+  expect_refused(lights({"--format", "xml"}), 2, "--format");
+  expect_refused(run({"lights", "mfis16-fig2"}), 2, "mfis16-fig1");
+  write("a-file", "");
+  expect_refused(run({"lights", write_config().string(), "--out", (folder_ / "a-file").string()}), 2,
+                 "a-file");
+}
+
+// `run` reports the same numbers.
+TEST_F(LightsCommand, CoverageIsThatOfTheReport) {
+  ASSERT_EQ(run_config().code, 0);
+  const Report r = report();
+  ASSERT_EQ(lights().code, 0);
+  ASSERT_EQ(r.cases.size(), 3u);
+  for (const CaseResult& c : r.cases) {
+    const Json j = json(c.method);
+    ASSERT_EQ(c.generate->overlap.has_value(), j.contains("coverage")) << c.id;
+    EXPECT_EQ(c.generate->gap.has_value(), j.contains("coverage")) << c.id;
+    if (!c.generate->gap) continue;
+    EXPECT_EQ(*c.generate->overlap, j.at("coverage").at("overlap").get<double>()) << c.id;
+    EXPECT_EQ(*c.generate->gap, j.at("coverage").at("gap").get<double>()) << c.id;
+  }
+  EXPECT_GT(*r.cases[0].generate->overlap, 0);
+}
+
+// The rest is drawn.
+TEST_F(LightsCommand, ACaseThatFailsCostsItself) {
+  config_["N"] = {257, 16};
+  config_["methods"] = {{{"method", "mfis"}}};
+  const Finished f = lights();
+  EXPECT_EQ(f.code, 1) << f.err;
+  EXPECT_TRUE(contains(f.out, "failed: N = 257 lights can't be drawn"));
+  EXPECT_TRUE(fs::exists(folder("mfis") / "scene.png"));
+}
+
+TEST_F(LightsCommand, ASceneThatIsNotHereIsSkipped) {
+  config_["scenes"] = {"sponza", "cornell"};
+  config_["methods"] = {{{"method", "mfis"}}};
+  const Finished f = lights();
+  EXPECT_EQ(f.code, 0) << f.err;
+  EXPECT_TRUE(contains(f.out, "skipped: "));
+  EXPECT_TRUE(fs::exists(folder("mfis") / "scene.png"));
+  expect_refused(lights({"--case", "sponza"}), 2, "nothing is drawn: ");
+}
+
+}  // namespace
+}  // namespace vsglbench

@@ -1,0 +1,243 @@
+#include "run/lights_run.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "base/nearest.h"
+#include "base/progress.h"
+#include "method/registry.h"
+#include "report/environment.h"
+#include "run/case_run.h"
+#include "run/light_pictures.h"
+#include "run/memory.h"
+#include "run/runner.h"
+#include "run/scene_images.h"
+#include "scene/scene_file.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+const Case& select_case(const std::vector<Case>& cases, const std::string& wanted) {
+  std::vector<const Case*> matches;
+  std::vector<std::string> ids;
+  for (const Case& c : cases) {
+    if (c.id == wanted) return c;
+    if (c.id.find(wanted) != std::string::npos) matches.push_back(&c);
+    ids.push_back(c.id);
+  }
+  if (matches.size() == 1) return *matches.front();
+  if (matches.empty()) {
+    throw fail(ErrorKind::usage, "no case '{}' among the {} of this config; the nearest is '{}'", wanted,
+               cases.size(), nearest_name(wanted, ids));
+  }
+  throw fail(ErrorKind::usage, "'{}' is part of {} cases' ids, '{}' and '{}' for two; give more of one",
+             wanted, matches.size(), matches[0]->id, matches[1]->id);
+}
+
+// Visibility has no say in where the lights are.
+FrameParameters without_visibility(FrameParameters parameters) {
+  parameters.visibility = Visibility::none;
+  return parameters;
+}
+
+// What stands in for the PDF of a method that uses none: the RSM's diffuse reflectance.
+std::vector<float> reflectance(const Frame& frame) {
+  std::vector<float> out;
+  for (const glm::vec4& texel : download_map(frame.rsm().maps[3])) out.push_back(luminance(glm::vec3(texel)));
+  return out;
+}
+
+CameraView camera_view_of(Frame& frame, const Scene& scene) {
+  return {camera_view(scene.camera, frame.camera().width, frame.camera().height), frame.render_direct(),
+          download_map(frame.gbuffer().maps[0]), download_map(frame.gbuffer().maps[1])};
+}
+
+Json to_json(const Coverage& c) {
+  Json json = {{"overlap", c.overlap}, {"gap", c.gap}};
+  if (c.pdf_gap) json.update({{"pdf_overlap", *c.pdf_overlap}, {"pdf_gap", *c.pdf_gap}});
+  return json;
+}
+
+const char* kind_name(LightKind kind) {
+  return kind == LightKind::vsgl ? "vsgl" : kind == LightKind::vsl ? "vsl" : "vpl";
+}
+
+// Of this run, for every case's file.
+class LightsRun {
+ public:
+  LightsRun(const LightsOptions& options, const Config& config, const fs::path& out)
+      : options_(options),
+        config_(config),
+        out_(out),
+        device_({.select = options.device}),
+        kernels_(device_) {}
+
+  // All of one scene.
+  void run(const std::vector<Case>& cases, std::vector<LightsResult>* results);
+
+ private:
+  void draw(Stage& stage, ScenePdfs* shared, const Case& c, LightsResult* result);
+  Json describe(const Case& c, const LightSet& lights, const Scene& scene, const LightsResult& result) const;
+  const LightsOptions& options_;
+  const Config& config_;
+  const fs::path out_;
+  Device device_;
+  KernelLibrary kernels_;
+};
+
+void LightsRun::run(const std::vector<Case>& cases, std::vector<LightsResult>* results) {
+  const SceneOptions where{data_root() / "scenes", assets_directory(options_.assets)};
+  std::optional<Scene> scene;
+  std::unique_ptr<Stage> stage;
+  std::unique_ptr<ScenePdfs> shared;
+  Progress progress(cases.front().scene, cases.size());
+  for (const Case& c : cases) {
+    LightsResult result{.id = c.id};
+    const auto failed = [&](const std::string& kind, const std::string& message) {
+      result.status = kind == "asset_missing" ? Status::skipped : Status::failed;
+      result.error = message;
+    };
+    const auto draw_it = [&] {
+      try {
+        if (!scene) scene = load_scene(c.scene, where);
+        if (!stage) stage = std::make_unique<Stage>(device_, kernels_, *scene);
+        if (!shared && config_.measure == Measure::generation) shared = std::make_unique<ScenePdfs>(*stage);
+        draw(*stage, shared.get(), c, &result);
+      } catch (const AssetMissing& e) {
+        failed("asset_missing", e.what());
+      }
+    };
+    progress.label(c.id);
+    guarded("scene", draw_it, failed);
+    progress.advance();
+    results->push_back(std::move(result));
+  }
+}
+
+void LightsRun::draw(Stage& stage, ScenePdfs* shared, const Case& c, LightsResult* result) {
+  Case unshaded = c;
+  unshaded.frame = without_visibility(c.frame);
+  require_memory(device_.info(), unshaded);
+  Frame frame(stage, load_method(c.method, device_.info()), c.method_parameters, unshaded.frame, nullptr);
+  const LightSet lights = make_lights(frame, options_.seed, shared, unshaded.frame);
+  result->lights = lights.count();
+  result->empty = lights.empty();
+  result->coverage = coverage_of(lights.shapes, lights.count(), lights.rsm, lights.rsm, lights.pdf);
+
+  const Scene& scene = stage.scene;
+  result->folder = fs::path(file_name(c.scene)) / file_name(c.method) /
+                   file_name(c.id.substr(c.scene.size() + c.method.size() + 2));
+  const fs::path folder = out_ / result->folder;
+  const std::vector<std::string> captions = {c.id, fmt::format("seed {}, {} lights, {} without power",
+                                                               options_.seed, result->lights, result->empty)};
+  const auto fallback = lights.pdf.empty() ? reflectance(frame) : std::vector<float>();
+  const View light = light_view(scene.light);
+  write_png(folder / "rsm.png", draw_on_rsm(lights, light, fallback, result->coverage, captions));
+  write_png(folder / "scene.png", draw_in_scene(lights, camera_view_of(frame, scene), captions));
+  Json list = light_list(lights, scene.origin);
+  if (options_.csv) {
+    write_text(folder / "lights.csv", to_csv(list));
+  } else {
+    Json json = describe(c, lights, scene, *result);
+    json["lights"] = std::move(list);
+    write_text(folder / "lights.json", json.dump(1) + "\n");
+  }
+}
+
+Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& scene,
+                         const LightsResult& result) const {
+  const DeviceInfo& d = device_.info();
+  Json json = {
+      {"schema", "vsglbench.lights/1"},
+      {"created", utc_now()},
+      {"argv", options_.argv},
+      {"git", {{"commit", build_git().commit}, {"dirty", build_git().dirty}}},
+      {"device",
+       {{"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}}},
+      {"config", config_.resolved},
+      {"case", c.id},
+      {"scene", {{"name", c.scene}, {"hash", scene.hash}}},
+      {"method", c.method},
+      {"parameters", c.parameters},
+      {"seed", options_.seed},
+      {"kind", kind_name(lights.kind)},
+      {"count", result.lights},
+      {"empty", result.empty}};
+  if (result.coverage) json["coverage"] = to_json(*result.coverage);
+  return json;
+}
+
+// "" where there is nothing to be written.
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed) {
+  std::string text = "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap\n";
+  for (const LightsResult& r : results) {
+    const auto& c = r.coverage;
+    const auto of = [&](double Coverage::*value) { return c ? std::optional((*c).*value) : std::nullopt; };
+    text += fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", r.id, seed, name(r.status), r.lights, r.empty,
+                        cell(of(&Coverage::overlap)), cell(of(&Coverage::gap)),
+                        cell(c ? c->pdf_overlap : std::nullopt), cell(c ? c->pdf_gap : std::nullopt));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return cases;
+  std::vector<const Case*> named;
+  for (const auto& name : wanted) named.push_back(&select_case(cases, name));
+  std::vector<Case> out;
+  for (const Case& c : cases) {
+    if (std::find(named.begin(), named.end(), &c) != named.end()) out.push_back(c);
+  }
+  return out;
+}
+
+LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters) {
+  frame.render_direct();  // draws the halves
+  LightSet set;
+  set.kind = frame.light_kind();
+  set.rsm = parameters.rsm;
+  const uint64_t texels = uint64_t(set.rsm) * set.rsm;
+  const bool uses_pdf = !frame.importance().empty();
+  KeptPdfs own;
+  if (uses_pdf && !shared) own = frame.prepare(seed);
+  const KeptPdfs& pdfs = uses_pdf && shared ? shared->get(parameters) : own;
+  frame.generate_only(seed, pdfs);
+  const LightHealth health = frame.light_health();
+  if (!health.first_bad_pass.empty()) {
+    throw fail(ErrorKind::case_failed, "{} lights with a NaN and {} with an Inf, the first is light {} of {}",
+               health.nan, health.inf, health.first_bad, health.first_bad_pass);
+  }
+  set.vsgls = frame.vsgls();
+  set.vpls = frame.vpls();
+  set.shapes = read_shapes(frame.light_shapes(), set.count(), texels);
+  if (uses_pdf) set.pdf = pdfs.rsm.download<float>(texels);
+  return set;
+}
+
+std::vector<LightsResult> run_lights(const LightsOptions& options) {
+  const Config config = load_config(options.config);
+  const std::vector<Case> cases = select_cases(config.cases, options.cases);
+  const fs::path out =
+      fs::absolute(options.out.empty() ? fs::path("reports") / "out" / config.name / "lights" : options.out);
+  ensure_writable_directory(out);
+  LightsRun run(options, config, out);
+  std::vector<LightsResult> results;
+  for (auto first = cases.begin(); first != cases.end();) {
+    const auto last =
+        std::find_if(first, cases.end(), [&](const Case& c) { return c.scene != first->scene; });
+    run.run({first, last}, &results);
+    first = last;
+  }
+  write_text(out / "coverage.csv", coverage_csv(results, options.seed));
+  return results;
+}
+
+}  // namespace vsglbench

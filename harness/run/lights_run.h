@@ -1,0 +1,53 @@
+// `vsglbench lights`: the lights of an experiment's cases as pictures, as a list, and as overlap and gap.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "report/report.h"
+#include "run/config.h"
+#include "run/coverage.h"
+#include "run/light_list.h"
+#include "run/scene_pdfs.h"
+
+namespace vsglbench {
+
+struct LightsOptions {
+  std::filesystem::path config;
+  std::filesystem::path out;       // empty: reports/out/<name of the config>/lights
+  std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
+  std::vector<std::string> cases;  // ids, or a part that one id alone has; empty: all
+  std::string device;              // index or part of a name; empty: the first usable
+  uint32_t seed = 0;
+  bool csv = false;  // lights.csv instead of lights.json
+  std::vector<std::string> argv;
+};
+
+// What became of one case. `folder` below the output folder holds rsm.png, scene.png and the list.
+struct LightsResult {
+  std::string id;
+  Status status = Status::ok;
+  std::string error;  // one line, where it is not ok
+  std::filesystem::path folder;
+  uint64_t lights = 0, empty = 0;
+  std::optional<Coverage> coverage;
+};
+
+// Each of `wanted` as the one case it names, in the order of `cases`, once. Throws Error(usage) for one that
+// is part of no id, naming the nearest, or of several.
+std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted);
+
+// The lights that a frame of this seed has, of the first iteration where the case has several. With `shared`
+// they are drawn from those PDFs, as a run that measures generation alone does; else from the case's own.
+// Draws the halves; visibility and shading are left out. Throws Error(case_failed) for lights with a NaN or
+// Inf.
+LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters);
+
+// Draws and writes each case, and a row for each in coverage.csv. A case that fails, or whose scene is not on
+// this machine, costs itself. Throws Error for what stops all: config, cases, output folder, device.
+std::vector<LightsResult> run_lights(const LightsOptions& options);
+
+}  // namespace vsglbench
