@@ -1,8 +1,8 @@
 # vsglbench_room(NAME [PUBLIC_LIBRARY] [SOURCES ...] [LINK ...] [PRIVATE_LINK ...] [TESTS x_test.cpp ...]
 #                [GPU_TESTS ...] [SLOW_TESTS ...])
 # One room of the house: a static library vsglbench_NAME with include root harness/, and one test
-# program per kind of test. GPU_TESTS carry the CTest label `gpu` (lavapipe counts), SLOW_TESTS the
-# labels `gpu;slow`. PUBLIC_LIBRARY: a shared one, installed with its headers, that plugins link too.
+# program per kind of test. GPU_TESTS carry the CTest label `gpu` (lavapipe counts), SLOW_TESTS
+# `gpu-slow`, which both `-L gpu` and `-L slow` match. PUBLIC_LIBRARY: a shared one, installed with its headers, that plugins link too.
 function(vsglbench_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
   if(VSGLBENCH_SANITIZE)
@@ -53,5 +53,5 @@ function(vsglbench_room name)
   set(VSGLBENCH_TEST_LINK ${ROOM_TEST_LINK})
   vsglbench_tests(${target} "" "host" ${ROOM_TESTS})
   vsglbench_tests(${target} _gpu "gpu" ${ROOM_GPU_TESTS})
-  vsglbench_tests(${target} _slow "gpu;slow" ${ROOM_SLOW_TESTS})
+  vsglbench_tests(${target} _slow "gpu-slow" ${ROOM_SLOW_TESTS})
 endfunction()

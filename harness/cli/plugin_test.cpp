@@ -65,6 +65,39 @@ TEST_F(PluginTest, ABadOneCostsItsOwnCaseAndNothingElse) {
   expect_failed(of(r, "returns-nan"), "not_finite", "generate.gbuffer");
 }
 
+// The texel whose weight is a NaN is (5, 3) of the RSM; lights and image are sound.
+TEST_F(PluginTest, CheckPassesNamesThePassAndTexelThatWentBad) {
+  use_methods({"vpl", "hides-nan", "mfis", "kmeans3d"});
+  config_["N"] = 8;
+  const std::vector<std::string> ordinary = {
+      "-q", "--plugin-path", bad_.string(), "run", write_config().string(), "--out", out_.string()};
+  EXPECT_EQ(run(ordinary).code, 0);
+  EXPECT_FALSE(report().config.contains("check_passes"));
+  EXPECT_TRUE(report().aa);
+  auto checked = ordinary;
+  checked.push_back("--check-passes");
+  const Finished f = run(checked);
+  EXPECT_EQ(f.code, 1) << f.err;
+  EXPECT_TRUE(contains(f.err, "times are not comparable"));
+  expect_sound(out_ / "report.json");
+  const Report r = report();
+  EXPECT_EQ(r.config.at("check_passes"), true);
+  EXPECT_FALSE(r.aa);  // of times
+  for (const char* sound : {"vpl", "mfis", "kmeans3d"}) EXPECT_EQ(of(r, sound).status, Status::ok);
+  const CaseResult& bad = of(r, "hides-nan");
+  expect_failed(
+      bad, "not_finite",
+      "pass generate.rsm.weigh is the first to hold a NaN: buffer weights, element 53, texel (5, 3)");
+  ASSERT_TRUE(bad.health && bad.health->first_bad);
+  EXPECT_EQ(bad.health->nan, 1u);
+  EXPECT_EQ(bad.health->inf, 0u);
+  EXPECT_EQ(bad.health->first_bad->pass, "generate.rsm.weigh");
+  EXPECT_EQ(bad.health->first_bad->buffer, "weights");
+  EXPECT_EQ(bad.health->first_bad->element, 53u);
+  EXPECT_EQ(bad.health->first_bad->texel, glm::uvec2(5, 3));
+  EXPECT_FALSE(bad.health->first_bad->pixel || bad.health->first_bad->light);
+}
+
 TEST_F(PluginTest, ListShowsWhatWasRefusedAndWhy) {
   const Finished f = run({"--plugin-path", bad_.string(), "list", "methods"});
   EXPECT_EQ(f.code, 0);

@@ -76,6 +76,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
           "600)")
       ->check(CLI::Range(1e-3, 1e6));
   command->add_flag("--force", options->force, "measure again what an interrupted run had finished");
+  command->add_flag(
+      "--check-passes", options->check_passes,
+      "submit every pass by itself and name the first, with its texel, that writes a NaN or Inf "
+      "(slow; times\nare not comparable)");
   command->add_flag("--validate", options->validation,
                     "with Vulkan's validation layers (slow); a message fails the run");
   command->callback([=] {

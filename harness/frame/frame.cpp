@@ -107,6 +107,7 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
       context_(stage.kernels, stage.scratch, method.folder, shading_defines(parameters.shading)),
       method_(make_method(method, context_, method_parameters)),
       exact_(std::move(exact)),
+      check_(parameters.check_passes ? std::make_unique<PassCheck>(outputs()) : nullptr),
       recorder_(stage.device),
       gbuffer_(&stage.targets(Half::gbuffer, parameters.width, parameters.height)),
       rsm_(&stage.targets(Half::rsm, parameters.rsm, parameters.rsm)) {
@@ -136,6 +137,7 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
   camera_buffer_.upload(&camera_, sizeof camera_);
   light_view_buffer_ = Buffer(stage.device, "light", sizeof light_);
   light_view_buffer_.upload(&light_, sizeof light_);
+  recorder_.observe(check_.get());
 }
 
 Frame::~Frame() = default;
@@ -165,6 +167,7 @@ Field Frame::field(Half half, const Buffer* pdf) {
 FrameTimes Frame::render(uint32_t seed) {
   FrameTimes times;
   generate_dispatches_ = 0;
+  restart_check();
   for (uint32_t i = 0; i < parameters_.iterations; ++i) render_iteration(seed, i, &times);
   times.generate_dispatches = generate_dispatches_;
   return times;
@@ -198,10 +201,12 @@ void Frame::trace_visibility() {
 
 KeptPdfs Frame::prepare(uint32_t seed) {
   if (!uses_importance()) throw fail(ErrorKind::case_failed, "this method makes no PDFs");
+  restart_check();
   recorder_.begin();
   draw_halves(recorder_);
   make_importance(recorder_, lattice_shift(seed));
   recorder_.submit_and_wait();
+  if (const auto bad = bad_output()) throw fail(ErrorKind::case_failed, "the PDFs: {}", bad->message());
   const auto keep = [&](Half half, const char* name) {
     const Buffer& made = pdf_buffer(half);
     const DeferredTargets& t = half == Half::gbuffer ? *gbuffer_ : *rsm_;
@@ -217,6 +222,7 @@ FrameTimes Frame::generate_only(uint32_t seed, const KeptPdfs& pdfs) {
   const glm::uvec2 shift = lattice_shift(seed);
   FrameTimes times;
   generate_dispatches_ = 0;
+  restart_check();
   recorder_.begin();
   if (lights_gbuffer()) generate_importance_lights(recorder_, &pdfs.gbuffer, shift);
   generate_lights(recorder_, uses_importance() ? &pdfs.rsm : nullptr, shift);

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "frame/pass_check.h"
 #include "frame/scene_gpu.h"
 #include "frame/shading.h"
 #include "frame/visibility.h"
@@ -37,6 +38,9 @@ struct FrameParameters {
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
   uint32_t iterations = 1;
+  // Every pass is submitted by itself and what it wrote is looked at: see Frame::bad_output(). Times of such a
+  // frame are not comparable.
+  bool check_passes = false;
 };
 
 // What the pixels say beside their colour; each is absent where the case does not have it.
@@ -125,6 +129,9 @@ class Frame {
   // The first pass, in the order of the frame, whose output of the last render() holds a NaN or Inf; empty
   // when none does.
   std::string first_bad_pass() const;
+  // With check_passes: the first NaN or Inf that a pass of the last render() or generate_only() wrote, whether or
+  // not it is still there at the end.
+  std::optional<BadOutput> bad_output() const { return check_ ? check_->first_bad() : std::nullopt; }
   // Kernels and scratch memory that the method asked for.
   size_t method_kernels() const { return context_.kernel_count(); }
   size_t method_bytes() const { return context_.scratch_bytes(); }
@@ -157,6 +164,11 @@ class Frame {
   // Whether lights on the G-buffer make the PDF.
   bool lights_gbuffer() const { return uses_importance() && parameters_.importance != Importance::flux; }
   Field field(Half half, const Buffer* pdf);
+  FrameOutputs outputs();  // what PassCheck asks this frame
+  FrameOutputs::NamedBuffer named_output(const std::string& pass, const Buffer& buffer);
+  void restart_check() {
+    if (check_) check_->restart();
+  }
 
   Stage& stage_;
   FrameParameters parameters_;
@@ -165,6 +177,7 @@ class Frame {
   std::unique_ptr<MethodContext> other_context_;
   std::unique_ptr<Method> other_method_;  // of the importance, where that is not method_
   ExactVisibility exact_;
+  std::unique_ptr<PassCheck> check_;  // null without check_passes
   Recorder recorder_;
   DeferredTargets *gbuffer_, *rsm_;
   gpu::Emitter camera_{}, light_{};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "frame/frame.h"
+#include "method/filtered_sampling.h"
 
 namespace vsglbench {
 namespace {
@@ -35,6 +36,18 @@ void check(const std::vector<Light>& lights, const char* pass, LightHealth* heal
       health->first_bad = i;
     }
   }
+}
+
+// The half that a pass works on, by its name: "rsm", "generate.rsm.sort"; what shades works on the camera's.
+std::optional<Half> half_of(const std::string& pass) {
+  const size_t dot = pass.find('.');
+  const std::string stage = pass.substr(0, dot);
+  const std::string step =
+      dot == std::string::npos ? "" : pass.substr(dot + 1, pass.find('.', dot + 1) - dot - 1);
+  if (pass == "gbuffer" || pass == "shade" || pass == "direct") return Half::gbuffer;
+  if (pass == "rsm") return Half::rsm;
+  if (stage != "importance" && stage != "generate") return std::nullopt;
+  return step == "gbuffer" ? Half::gbuffer : Half::rsm;
 }
 
 }  // namespace
@@ -127,6 +140,41 @@ std::string Frame::first_bad_pass() const {
   if (!all_finite(vsgls()) || !all_finite(vpls())) return "generate.rsm";
   const Image image = indirect();
   return all_finite(&image.pixels.front().x, 3 * image.pixels.size()) ? "" : "shade";
+}
+
+FrameOutputs::NamedBuffer Frame::named_output(const std::string& pass, const Buffer& buffer) {
+  const std::optional<Half> half = half_of(pass);
+  const auto is = [&](const Buffer& b) { return &b == &buffer; };
+  if (half && pass.starts_with("importance.") && is(pdf_buffer(*half))) {
+    const DeferredTargets& t = *half == Half::gbuffer ? *gbuffer_ : *rsm_;
+    return {fmt::format("pdf.{}", half_name(*half)), pyramid_texels(t.width, t.height) * sizeof(float)};
+  }
+  if (half && pass.starts_with("generate.")) {
+    const bool other = *half == Half::gbuffer && other_method_;
+    const uint32_t count = *half == Half::gbuffer ? importance_count_ : light_count_;
+    const size_t stride = light_stride((other ? *other_method_ : *method_).kind());
+    if (is(light_buffer(*half))) return {fmt::format("lights.{}", half_name(*half)), count * stride, true};
+    for (const auto& [name, bytes] : (other ? *other_context_ : context_).scratch_buffers()) {
+      if (is(stage_.scratch.get(name, 0))) return {name, bytes};
+    }
+  }
+  if (pass == "shade") return {"indirect", size_t(camera_.width) * camera_.height * sizeof(glm::vec4)};
+  return {"", buffer.size()};
+}
+
+FrameOutputs Frame::outputs() {
+  FrameOutputs out;
+  out.buffer = [this](const std::string& pass, const Buffer& buffer) { return named_output(pass, buffer); };
+  out.half = [this](const std::string& pass) -> FrameOutputs::HalfSize {
+    const std::optional<Half> half = half_of(pass);
+    if (!half) return {};
+    if (*half == Half::gbuffer) return {{gbuffer_->width, gbuffer_->height}, importance_count_};
+    return {{rsm_->width, rsm_->height}, light_count_};
+  };
+  out.targets = [this](const std::string& pass) -> const DeferredTargets* {
+    return pass == "gbuffer" ? gbuffer_ : pass == "rsm" ? rsm_ : nullptr;
+  };
+  return out;
 }
 
 LightHealth Frame::light_health() const {

@@ -1,163 +1,147 @@
-// shade.comp against shaders/shading_exact.h on random inputs.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "base/file.h"
-#include "frame/frame.h"
-#include "shaders/shading_exact.h"
+// shade.comp's closed forms against shaders/shading_exact.h on random inputs.
+#include "frame/shade_fixture.h"
 
 using namespace vsglbench;
 
 namespace {
 
+using exact::VsglModel;
+using exact::VsglShading;
 using glm::dvec3;
+constexpr double kPi = 3.14159265358979323846;
 
-// A G-buffer of random surfaces, as images on the device and in double.
-class ShadeTest : public ::testing::Test {
- protected:
-  static constexpr uint32_t kWidth = 37, kHeight = 11, kLights = 50;
+template <class Make>
+auto some(uint32_t count, const Make& make) {
+  std::vector<decltype(make())> out;
+  for (uint32_t i = 0; i < count; ++i) out.push_back(make());
+  return out;
+}
 
-  ShadeTest() : random_(99) {
-    camera_ = {.position = {0, 0, 3},
-               .perspective = 1,
-               .forward = {0, 0, -1},
-               .width = kWidth,
-               .right = {1, 0, 0},
-               .height = kHeight,
-               .up = {0, 1, 0},
-               .footprint_cosine = 0.1f,
-               .extent = {1, 1},
-               .power = {1, 1, 1},
-               .importance = 1};
-    std::array<std::vector<glm::vec4>, 5> maps;
-    for (uint32_t i = 0; i < kWidth * kHeight; ++i) add_pixel(maps);
-    for (size_t i = 0; i < 5; ++i) {
-      images_.emplace_back(device(), "map", VK_FORMAT_R32G32B32A32_SFLOAT, kWidth, kHeight,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-      images_.back().upload(maps[i].data(), maps[i].size() * sizeof(glm::vec4));
-    }
-  }
-
-  static Device& device() {
-    static Device device;
-    return device;
-  }
-  float uniform() { return static_cast<float>(random_() >> 8) * 0x1p-24f; }
-  glm::vec3 color() { return {uniform(), uniform(), uniform()}; }
-  glm::vec3 direction() {
-    const float z = 2 * uniform() - 1, p = 6.2831853f * uniform(), r = std::sqrt(std::max(1 - z * z, 0.0f));
-    return {r * std::cos(p), r * std::sin(p), z};
-  }
-  glm::vec3 near(const glm::vec3& axis) { return glm::normalize(axis + 0.6f * direction()); }
-  float ndf() { return uniform() < 0.5f ? 0.03f + uniform() : -std::exp(uniform() * 8); }
-
-  void add_pixel(std::array<std::vector<glm::vec4>, 5>& maps) {
-    const glm::vec3 p = 2.0f * color() - 1.0f, view = glm::normalize(camera_.position - p);
-    glm::vec3 g = near(view), n = near(g);
-    if (glm::dot(g, view) < 0) g = -g;
-    if (glm::dot(n, view) < 0.05f) n = glm::normalize(n + (0.1f - glm::dot(n, view)) * view);
-    const glm::vec3 rd = color(), f0 = color();
-    const float a = ndf();
-    maps[0].emplace_back(p, 1);
-    maps[1].emplace_back(n, a);
-    maps[2].emplace_back(g, 0);
-    maps[3].emplace_back(rd, 0);
-    maps[4].emplace_back(f0, 0);
-    pixels_.push_back(
-        {p, glm::normalize(dvec3(n)), g, glm::normalize(dvec3(camera_.position) - dvec3(p)), rd, f0, a});
-  }
-
-  template <class Light>
-  std::vector<glm::vec4> shade(const std::vector<Light>& lights, const char* is_vpl,
-                               ShaderDefines defines = {}) {
-    KernelLibrary kernels(device());
-    defines.insert({{"LIGHT_VPL", is_vpl}, {"VISIBILITY", "0"}});
-    const Kernel& kernel = kernels.get(data_root() / "harness" / "frame" / "shade.comp", defines);
-    Buffer light_buffer(device(), "lights", lights.size() * sizeof(Light));
-    light_buffer.upload(std::span<const Light>(lights));
-    Buffer out(device(), "out", pixels_.size() * sizeof(glm::vec4));
-    const ShadePush push{.emitter = camera_, .count = static_cast<uint32_t>(lights.size())};
-    Recorder recorder(device());
-    recorder.begin();
-    recorder.pass("shade", [&] {
-      recorder.dispatch(kernel,
-                        {images_[0], images_[1], images_[2], images_[3], images_[4], light_buffer, out}, push,
-                        groups_for(kWidth, 8), groups_for(kHeight, 8));
-    });
-    recorder.submit_and_wait();
-    return out.download<glm::vec4>(pixels_.size());
-  }
-
-  // The largest |gpu - host| / |host| over pixels; near-black pixels are measured against the median.
-  double worst(const std::vector<glm::vec4>& gpu, const std::vector<dvec3>& host) {
-    std::vector<double> lengths;
-    for (const auto& h : host) lengths.push_back(glm::length(h));
-    std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
-    const double floor = 1e-3 * lengths[lengths.size() / 2];
-    double most = 0;
-    for (size_t i = 0; i < host.size(); ++i) {
-      most = std::max(most, glm::length(dvec3(gpu[i]) - host[i]) / std::max(glm::length(host[i]), floor));
-    }
-    return most;
-  }
-
-  std::mt19937 random_;
-  gpu::Emitter camera_{};
-  std::vector<exact::Surface> pixels_;
-  std::vector<DeviceImage> images_;
-};
-
-}  // namespace
+// Variances from far below the squared distance, where the disk is a point, to far above it.
+std::vector<gpu::Vsgl> of_every_size(std::vector<gpu::Vsgl> lights) {
+  for (size_t i = 0; i < lights.size(); ++i)
+    lights[i].variance = std::pow(10.0f, static_cast<float>(i % 18) - 14);
+  return lights;
+}
 
 TEST_F(ShadeTest, VsglsMatchDouble) {
-  std::vector<gpu::Vsgl> lights(kLights);
-  for (auto& l : lights) {
-    l.mean = 3.0f * (2.0f * color() - 1.0f);
-    l.variance = std::exp(6 * uniform() - 7);
-    l.diffuse = color();
-    l.diffuse_sharpness = 0.3f + 1.7f * uniform();
-    l.diffuse_axis = direction();
-    l.specular = color();
-    l.specular_sharpness = std::exp(7 * uniform());
-    l.specular_axis = direction();
-    l.power = 1;
-  }
-  const auto host = [&](const exact::VsglShading& shading) {
-    std::vector<dvec3> sums(pixels_.size(), dvec3(0));
-    for (size_t i = 0; i < pixels_.size(); ++i) {
-      for (const auto& l : lights) sums[i] += exact::shade_vsgl(pixels_[i], l, shading);
-    }
-    return sums;
+  const auto lights = some(kLights, [&] { return random_vsgl(); });
+  const auto host = [&](const VsglShading& shading) {
+    return on_host(lights, [&](const auto& s, const auto& l) { return exact::shade_vsgl(s, l, shading); });
   };
-  EXPECT_LT(worst(shade(lights, "0"), host({})), 1e-4);
-  EXPECT_LT(worst(shade(lights, "0", {{"VARIANCE", "1"}}), host({.disk = true})), 1e-4);
-  EXPECT_LT(worst(shade(lights, "0", {{"DIFFUSE_KERNEL", "4"}}), host({exact::DiffuseKernel::tokuyoshi2024})),
+  EXPECT_LT(worst(shade(lights), host({})), 1e-4);
+  EXPECT_LT(worst(shade(lights, {{"VARIANCE", "1"}}), host({.disk = true})), 1e-4);
+  EXPECT_LT(worst(shade(lights, {{"DIFFUSE_KERNEL", "4"}}), host({exact::DiffuseKernel::tokuyoshi2024})),
             1e-4);
 }
 
-TEST_F(ShadeTest, VplsMatchDouble) {
-  std::vector<gpu::Vpl> lights(kLights);
+TEST_F(ShadeTest, TripleProductsMatchDouble) {
+  const auto lights = some(kLights, [&] { return random_vsgl(); });
+  for (const auto& set : {lights, of_every_size(lights)}) {
+    for (const bool disk : {false, true}) {
+      const VsglShading shading{.disk = disk, .model = VsglModel::vsgl14};
+      const auto host =
+          on_host(set, [&](const auto& s, const auto& l) { return exact::shade_vsgl(s, l, shading); });
+      const auto gpu = shade(set, {{"SHADING_MODEL", "1"}, {"VARIANCE", disk ? "1" : "0"}});
+      EXPECT_LT(worst(gpu, host), 1e-4);
+    }
+  }
+}
+
+// σ → 0 between diffuse surfaces: Φ Rd/π Rd/π cos cos / d² [VSGL14 Eq. 1], of a light of power ΦRd.
+TEST_F(ShadeTest, ADiffuseTripleProductComesToAPointLight) {
+  for (auto& s : pixels_) s.f0 = dvec3(0);
+  images_[4].upload(std::vector<glm::vec4>(pixels_.size(), glm::vec4(0)).data(),
+                    pixels_.size() * sizeof(glm::vec4));
+  auto lights = some(kLights, [&] { return random_vsgl(); });
   for (auto& l : lights) {
-    l.position = 3.0f * (2.0f * color() - 1.0f);
-    l.geometric_normal = direction();
-    l.normal = near(l.geometric_normal);
-    l.incident = near(l.normal);
-    l.ndf = ndf();
-    l.flux = color();
-    l.power = 1;
-    l.diffuse = color();
-    l.f0 = color();
+    l.specular = glm::vec3(0);
+    l.variance = 1e-9f;
   }
-  std::vector<dvec3> host(pixels_.size(), dvec3(0));
-  for (size_t i = 0; i < pixels_.size(); ++i) {
-    for (const auto& l : lights) host[i] += exact::shade_vpl(pixels_[i], l);
+  const auto point = [&](const exact::Surface& s, const gpu::Vsgl& l) {
+    const dvec3 to = dvec3(l.mean) - s.position;
+    const double d = glm::length(to);
+    const double cosines =
+        std::max(glm::dot(to, s.normal), 0.0) * std::max(-glm::dot(to, dvec3(l.diffuse_axis)), 0.0);
+    return dvec3(l.diffuse) * exact::sg_integral(l.diffuse_sharpness) / kPi * s.diffuse / kPi * cosines /
+           (d * d * d * d);
+  };
+  const auto expected = on_host(lights, point);
+  EXPECT_LT(worst(shade(lights, {{"SHADING_MODEL", "1"}}), expected), 1e-4);
+  const VsglShading shading{.model = VsglModel::vsgl14};
+  std::vector<glm::vec4> host;
+  for (const dvec3& h : on_host(lights, [&](auto&s, auto&l) { return exact::shade_vsgl(s, l, shading); }))
+    host.emplace_back(h, 0);
+  EXPECT_LT(worst(host, expected), 1e-5);
+}
+
+// Lights, the texels that stand for them, and the decisions on the host.
+struct Cancelled {
+  std::vector<dvec3> radiance;
+  std::vector<double> count;
+  std::vector<bool> certain;  // no decision that single precision may take the other way
+};
+
+TEST_F(ShadeTest, CancelledLightsHaveTheirExactBrdfs) {
+  const auto lights = of_every_size(some(200, [&] {
+    auto l = random_vsgl();
+    if (uniform() < 0.2f) l.specular = glm::vec3(0);
+    l.power = uniform() < 0.1f ? 0 : 1;
+    return l;
+  }));
+  const auto texels = some(200, [&] {
+    auto t = random_vpl();
+    t.power = uniform() < 0.1f ? 0 : 1;
+    return t;
+  });
+  for (const VsglModel model : {VsglModel::vsgl16, VsglModel::vsgl14}) {
+    for (const float alpha : {0.001f, 0.1f, 3.0f}) {
+      const VsglShading shading{.model = model};
+      Cancelled host{std::vector<dvec3>(pixels_.size()), std::vector<double>(pixels_.size()),
+                     std::vector<bool>(pixels_.size(), true)};
+      double all = 0, certain = 0;
+      for (size_t i = 0; i < pixels_.size(); ++i) {
+        for (size_t k = 0; k < lights.size(); ++k) {
+          const double least = exact::cancelling_alpha(pixels_[i], lights[k], shading);
+          const bool is_cancelled = lights[k].power > 0 && texels[k].power > 0 && double{alpha} > least;
+          host.certain[i] = host.certain[i] && std::abs(least / alpha - 1) > 1e-5;
+          host.count[i] += is_cancelled;
+          host.radiance[i] += is_cancelled ? exact::shade_cancelled(pixels_[i], lights[k], texels[k], shading)
+                                           : exact::shade_vsgl(pixels_[i], lights[k], shading);
+        }
+        all += host.count[i];
+      }
+      auto gpu =
+          shade(lights, {{"SHADING_MODEL", model == VsglModel::vsgl14 ? "1" : "0"}, {"BIAS_REDUCTION", "1"}},
+                {.alpha = alpha}, texels);
+      for (size_t i = 0; i < gpu.size(); ++i) {
+        if (!host.certain[i]) {
+          gpu[i] = glm::vec4(host.radiance[i], host.count[i]);
+          continue;
+        }
+        ++certain;
+        EXPECT_EQ(gpu[i].a, host.count[i]) << "pixel " << i << ", alpha " << alpha;
+      }
+      EXPECT_LT(worst(gpu, host.radiance), 1e-4) << "alpha " << alpha;
+      EXPECT_GT(certain, 0.9 * static_cast<double>(gpu.size()));
+      const double rate = all / static_cast<double>(gpu.size() * lights.size());
+      EXPECT_GT(rate, 0.1) << "alpha " << alpha;
+      EXPECT_LT(rate, 0.8) << "alpha " << alpha;
+    }
   }
-  EXPECT_LT(worst(shade(lights, "1"), host), 1e-4);
+}
+
+TEST_F(ShadeTest, VplsMatchDouble) {
+  const auto lights = some(kLights, [&] { return random_vpl(); });
+  const auto host = on_host(lights, [&](const auto& s, const auto& l) { return exact::shade_vpl(s, l); });
+  EXPECT_LT(worst(shade(lights), host), 1e-4);
 }
 
 TEST_F(ShadeTest, ALightWithoutPowerAddsNothing) {
-  const std::vector<gpu::Vsgl> lights(3);
-  for (const auto& p : shade(lights, "0")) EXPECT_EQ(glm::vec3(p), glm::vec3(0));
+  for (const char* model : {"0", "1"}) {
+    for (const auto& p : shade(std::vector<gpu::Vsgl>(3), {{"SHADING_MODEL", model}}))
+      EXPECT_EQ(glm::vec3(p), glm::vec3(0));
+  }
 }
+
+}  // namespace

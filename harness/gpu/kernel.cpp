@@ -1,77 +1,11 @@
 #include "gpu/kernel.h"
 
-#include <map>
 #include <utility>
 
 #include "base/error.h"
 #include "gpu/check.h"
 
 namespace vsglbench {
-namespace {
-
-// The few SPIR-V opcodes and enumerants that reflection needs (SPIR-V specification 1.6, section 3).
-enum Op : uint32_t {
-  kTypeImage = 25,
-  kTypeSampledImage = 27,
-  kTypePointer = 32,
-  kVariable = 59,
-  kDecorate = 71
-};
-enum Decoration : uint32_t { kBinding = 33, kDescriptorSet = 34 };
-enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
-
-struct Reflected {
-  std::map<uint32_t, uint32_t> binding, set;                    // variable id → decoration
-  std::map<uint32_t, uint32_t> pointee, type_opcode;            // pointer type → type; type → opcode
-  std::map<uint32_t, std::pair<uint32_t, uint32_t>> variables;  // id → (pointer type, storage class)
-};
-
-Reflected scan(const std::vector<uint32_t>& spirv) {
-  Reflected r;
-  for (size_t i = 5; i < spirv.size();) {
-    const uint32_t opcode = spirv[i] & 0xffff, words = spirv[i] >> 16;
-    if (words == 0 || i + words > spirv.size()) break;
-    const uint32_t* w = &spirv[i];
-    if (opcode == kDecorate && words >= 4 && w[2] == kBinding) r.binding[w[1]] = w[3];
-    if (opcode == kDecorate && words >= 4 && w[2] == kDescriptorSet) r.set[w[1]] = w[3];
-    if (opcode == kTypePointer) r.pointee[w[1]] = w[3];
-    if (opcode == kTypeImage || opcode == kTypeSampledImage) r.type_opcode[w[1]] = opcode;
-    if (opcode == kVariable) r.variables[w[2]] = {w[1], w[3]};
-    i += words;
-  }
-  return r;
-}
-
-}  // namespace
-
-std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spirv, const std::string& name) {
-  const Reflected r = scan(spirv);
-  std::map<uint32_t, VkDescriptorType> found;
-  for (const auto& [id, binding] : r.binding) {
-    if (r.set.count(id) && r.set.at(id) != 0) {
-      throw fail(ErrorKind::plugin, "{}: binding {} is in set {}; use set 0", name, binding, r.set.at(id));
-    }
-    const auto [pointer, storage] = r.variables.at(id);
-    const uint32_t type = r.pointee.at(pointer);
-    const bool sampled = r.type_opcode.count(type) && r.type_opcode.at(type) == kTypeSampledImage;
-    if (storage == kStorageBuffer) {
-      found[binding] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    } else if (storage == kUniform) {
-      found[binding] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    } else if (storage == kUniformConstant && sampled) {
-      found[binding] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    } else {
-      throw fail(ErrorKind::plugin, "{}: binding {} is neither a buffer nor a sampler", name, binding);
-    }
-  }
-  std::vector<VkDescriptorType> types;
-  for (const auto& [binding, type] : found) {
-    if (binding != types.size())
-      throw fail(ErrorKind::plugin, "{}: binding {} is missing", name, types.size());
-    types.push_back(type);
-  }
-  return types;
-}
 
 DescriptorArena::~DescriptorArena() {
   for (const VkDescriptorPool pool : pools_) vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
@@ -195,6 +129,7 @@ Kernel::Kernel(Device& device, const std::filesystem::path& path, const ShaderDe
     : device_(&device), name_(path.filename().string()) {
   const auto spirv = compile_shader(path, defines, include_dirs);
   layout_ = BindingLayout(device, reflect_bindings(spirv, name_), VK_SHADER_STAGE_COMPUTE_BIT);
+  float_outputs_ = reflect_float_outputs(spirv);
   const VkShaderModule module = make_shader_module(device, spirv);
   const VkComputePipelineCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -217,6 +152,7 @@ void Kernel::swap(Kernel& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(layout_, other.layout_);
   std::swap(pipeline_, other.pipeline_);
+  std::swap(float_outputs_, other.float_outputs_);
 }
 
 void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "gpu/reflection.h"
 #include "gpu/shader_compiler.h"
 
 namespace vsglbench {
@@ -20,10 +21,6 @@ struct Binding {
   const Buffer* buffer = nullptr;
   const DeviceImage* image = nullptr;
 };
-
-// Descriptor types of set 0, in binding order, as the SPIR-V declares them. Throws Error(plugin) for
-// another set, a gap, or a resource that is neither a storage buffer, uniform buffer nor sampled image.
-std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spirv, const std::string& name);
 
 // Descriptor sets that live until reset().
 class DescriptorArena {
@@ -83,6 +80,7 @@ class Kernel {
   }
 
   const std::string& name() const { return name_; }
+  const FloatOutputs& float_outputs() const { return float_outputs_; }
   // Binds and dispatches groups; a group count of zero records nothing.
   void dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
                 const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1,
@@ -94,6 +92,7 @@ class Kernel {
   std::string name_;
   BindingLayout layout_;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
+  FloatOutputs float_outputs_;
 };
 
 }  // namespace vsglbench

@@ -1,11 +1,22 @@
 #include "gpu/recorder.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "gpu/check.h"
 
 namespace vsglbench {
 
-Recorder::Recorder(Device& device) : device_(device), descriptors_(device) {
+struct Recorder::State {
+  VkFence fence = VK_NULL_HANDLE;
+  SubmissionTimes times;  // of what was submitted since begin()
+  PassObserver* observer = nullptr;
+  bool in_pass = false;  // below: with an observer
+  PassRecord pass;
+};
+
+Recorder::Recorder(Device& device)
+    : device_(device), state_(std::make_unique<State>()), descriptors_(device) {
   const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                              .commandPool = device.command_pool(),
                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
@@ -16,18 +27,26 @@ Recorder::Recorder(Device& device) : device_(device), descriptors_(device) {
                                       .queryCount = 2 * kMaxPasses};
   VK_CHECK(vkCreateQueryPool(device.handle(), &queries, nullptr, &queries_));
   const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-  VK_CHECK(vkCreateFence(device.handle(), &fence, nullptr, &fence_));
+  VK_CHECK(vkCreateFence(device.handle(), &fence, nullptr, &state_->fence));
 }
 
 Recorder::~Recorder() {
-  vkDestroyFence(device_.handle(), fence_, nullptr);
+  vkDestroyFence(device_.handle(), state_->fence, nullptr);
   vkDestroyQueryPool(device_.handle(), queries_, nullptr);
   vkFreeCommandBuffers(device_.handle(), device_.command_pool(), 1, &commands_);
 }
 
+void Recorder::observe(PassObserver* observer) { state_->observer = observer; }
+
 void Recorder::begin() {
-  names_.clear();
   dispatches_ = 0;
+  state_->times = {};
+  state_->in_pass = false;
+  open();
+}
+
+void Recorder::open() {
+  names_.clear();
   descriptors_.reset();
   vkResetQueryPool(device_.handle(), queries_, 0, 2 * kMaxPasses);
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -37,6 +56,19 @@ void Recorder::begin() {
 }
 
 void Recorder::pass(const std::string& name, const std::function<void()>& record) {
+  State& s = *state_;
+  if (!s.observer || s.in_pass) return record_pass(name, record);
+  s.in_pass = true;
+  s.pass = {name, {}};
+  record_pass(name, record);
+  s.in_pass = false;
+  s.observer->before(s.pass);
+  submit();
+  s.observer->after(s.pass);
+  open();
+}
+
+void Recorder::record_pass(const std::string& name, const std::function<void()>& record) {
   if (names_.size() == kMaxPasses) throw std::logic_error("too many passes in one submission");
   const auto index = static_cast<uint32_t>(names_.size());
   names_.push_back(name);
@@ -59,7 +91,12 @@ void Recorder::pass(const std::string& name, const std::function<void()>& record
 void Recorder::dispatch(const Kernel& kernel, std::span<const Binding> bindings, const void* push,
                         size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
   kernel.dispatch(commands_, descriptors_, bindings, push, push_bytes, groups_x, groups_y, groups_z);
-  if (groups_x && groups_y && groups_z) ++dispatches_;
+  if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
+  ++dispatches_;
+  if (!state_->in_pass) return;
+  for (uint32_t i = 0; i < bindings.size(); ++i) {
+    if (bindings[i].buffer) state_->pass.uses.push_back({bindings[i].buffer, &kernel, i});
+  }
 }
 
 void Recorder::barrier() {
@@ -75,19 +112,25 @@ void Recorder::barrier() {
 
 void Recorder::fill(const Buffer& buffer, uint32_t word) {
   vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
+  if (state_->in_pass) state_->pass.uses.push_back({&buffer, nullptr, 0});
 }
 
 SubmissionTimes Recorder::submit_and_wait() {
+  submit();
+  state_->times.dispatches = dispatches_;
+  return std::move(state_->times);
+}
+
+// Waits, too, and adds what was timed to the times so far.
+void Recorder::submit() {
   VK_CHECK(vkEndCommandBuffer(commands_));
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands_};
-  VK_CHECK(vkQueueSubmit(device_.queue(), 1, &submit, fence_));
-  VK_CHECK(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX));
-  VK_CHECK(vkResetFences(device_.handle(), 1, &fence_));
+  VK_CHECK(vkQueueSubmit(device_.queue(), 1, &submit, state_->fence));
+  VK_CHECK(vkWaitForFences(device_.handle(), 1, &state_->fence, VK_TRUE, UINT64_MAX));
+  VK_CHECK(vkResetFences(device_.handle(), 1, &state_->fence));
 
-  SubmissionTimes times;
-  times.dispatches = dispatches_;
-  if (names_.empty()) return times;
+  if (names_.empty()) return;
   std::vector<uint64_t> stamps(2 * names_.size());
   VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(stamps.size()),
                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
@@ -99,10 +142,9 @@ SubmissionTimes Recorder::submit_and_wait() {
     return static_cast<double>((to - from) & mask) * ms_per_tick;
   };
   for (size_t i = 0; i < names_.size(); ++i) {
-    times.passes.push_back({names_[i], milliseconds(stamps[2 * i], stamps[2 * i + 1])});
+    state_->times.passes.push_back({names_[i], milliseconds(stamps[2 * i], stamps[2 * i + 1])});
   }
-  times.span_ms = milliseconds(stamps.front(), stamps.back());
-  return times;
+  state_->times.span_ms += milliseconds(stamps.front(), stamps.back());
 }
 
 }  // namespace vsglbench

@@ -4,6 +4,7 @@
 #include <vulkan/vulkan.h>
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,25 @@ struct SubmissionTimes {
   std::vector<PassTime> passes;  // in order; a name may come more than once
   double span_ms = 0;            // from the first timestamp to the last
   unsigned dispatches = 0;
+};
+
+// What a pass's dispatches and fills were given, in their order.
+struct PassRecord {
+  struct Use {
+    const Buffer* buffer;
+    const Kernel* kernel;  // null: filled
+    uint32_t binding;
+  };
+  std::string name;
+  std::vector<Use> uses;
+};
+
+// Looks at every pass by itself. Commands that don't go through dispatch() or fill() it does not hear of.
+class PassObserver {
+ public:
+  virtual ~PassObserver() = default;
+  virtual void before(const PassRecord& pass) = 0;  // recorded, and not yet begun; the device is idle
+  virtual void after(const PassRecord& pass) = 0;   // finished
 };
 
 // Records one command buffer at a time: begin, passes, submit_and_wait.
@@ -57,13 +77,20 @@ class Recorder {
   // Submits, waits, and reads the timestamps.
   SubmissionTimes submit_and_wait();
   unsigned dispatches() const { return dispatches_; }  // since begin()
+  // From the next begin() on every pass is submitted and waited for by itself, so that times lack what passes
+  // gain from each other. Null: no longer. The observer outlives it.
+  void observe(PassObserver* observer);
 
  private:
+  struct State;
+  void open();
+  void submit();
+  void record_pass(const std::string& name, const std::function<void()>& record);
   static constexpr uint32_t kMaxPasses = 512;
   Device& device_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkQueryPool queries_ = VK_NULL_HANDLE;
-  VkFence fence_ = VK_NULL_HANDLE;
+  std::unique_ptr<State> state_;  // the rest; apart, so that plugins need not know its size
   DescriptorArena descriptors_;
   std::vector<std::string> names_;
   unsigned dispatches_ = 0;

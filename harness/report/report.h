@@ -124,14 +124,20 @@ struct Temporal {
   FlickerSeries derivative, still;  // "derivative" and "static" in the file
 };
 
-// Where the first NaN or Inf is: in a pixel of the image or, where that shows none, in a light.
+// Where the first NaN or Inf is: in a pixel of the image or, where that shows none, in a light. When every pass
+// was checked: in a light or another element of what a pass wrote.
 struct FirstBad {
   std::string pass;  // the first pass whose output held one; empty where that is not known
   std::optional<glm::uvec2> pixel;
   std::optional<uint64_t> light;
+  // Below: when every pass was checked.
+  std::string buffer, field;  // field of the element: "power", "mean.x"; empty where it is one number
+  std::optional<uint64_t> element;
+  std::optional<glm::uvec2> texel;  // of the pass's half, where the buffer has an element for each
+  std::optional<uint32_t> level;    // of the mip pyramid that it has one for each texel of
 };
 
-struct HealthReport {  // counts of pixels or lights
+struct HealthReport {  // counts of pixels or lights, or of elements of FirstBad::buffer
   uint64_t nan = 0, inf = 0, negative = 0;
   std::optional<FirstBad> first_bad;
 };

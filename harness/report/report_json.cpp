@@ -156,6 +156,11 @@ void fields(auto& a, Is<FirstBad> auto& v) {
   a.unless_empty("pass", v.pass);
   a("pixel", v.pixel);
   a("light", v.light);
+  a.unless_empty("buffer", v.buffer);
+  a.unless_empty("field", v.field);
+  a("element", v.element);
+  a("texel", v.texel);
+  a("level", v.level);
 }
 
 void fields(auto& a, Is<HealthReport> auto& v) {

@@ -130,12 +130,24 @@ TEST(ReportSchema, GenerationAloneHasTimesAndNothingElse) {
   EXPECT_NE(first_violation([](Json& j) { j["cases"][0]["measure"] = "generation"; }), "");
 }
 
-TEST(ReportSchema, ABadPixelOrABadLight) {
+TEST(ReportSchema, ABadPixelLightOrElement) {
   const auto broken = [](const Json& first_bad) {
     return first_violation([&](Json& j) { j["cases"][1]["health"]["first_bad"] = first_bad; });
   };
   EXPECT_EQ(broken({{"pass", "generate.rsm"}, {"light", 7}}), "");
   EXPECT_NE(broken({{"pass", "generate.rsm"}}), "");
+  const Json element = {{"pass", "generate.rsm.mipmap"},
+                        {"buffer", "moments1.rsm"},
+                        {"field", "x"},
+                        {"element", 1234},
+                        {"texel", {12, 3}},
+                        {"level", 2}};
+  EXPECT_EQ(broken(element), "");
+  EXPECT_EQ(broken({{"pass", "generate.rsm"}, {"light", 7}, {"buffer", "lights.rsm"}, {"field", "power"}}),
+            "");
+  Json nameless = element;
+  nameless.erase("buffer");
+  EXPECT_NE(broken(nameless), "");
 }
 
 TEST(ReportSchema, ValuesOutOfRangeAreRefused) {

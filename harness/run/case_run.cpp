@@ -105,6 +105,7 @@ FrameTimes CaseRun::render(uint32_t seed) {
     wall_->compilation_s += std::max(0.0, watch.seconds() - device_s - visibility_s);
   }
   rendered_ = true;
+  check_passes();
   return times;
 }
 
@@ -181,6 +182,19 @@ void CaseRun::check_lights() {
                                 FirstBad{health.first_bad_pass, std::nullopt, health.first_bad}};
   fail_with("not_finite", fmt::format("{} lights with a NaN and {} with an Inf, the first is light {} of {}",
                                       health.nan, health.inf, health.first_bad, health.first_bad_pass));
+  throw fail(ErrorKind::case_failed, "not finite");
+}
+
+// With check_passes, and in every frame: what any pass wrote, though nothing of it may be left at the end.
+void CaseRun::check_passes() {
+  const std::optional<BadOutput> bad = frame_->bad_output();
+  if (!bad) return;
+  FirstBad first{.pass = bad->pass, .buffer = bad->buffer, .field = bad->field};
+  (bad->is_light ? first.light : first.element) = bad->element;
+  first.texel = bad->texel;
+  first.level = bad->level;
+  result_.health = HealthReport{bad->nan, bad->inf, 0, first};
+  fail_with("not_finite", bad->message());
   throw fail(ErrorKind::case_failed, "not finite");
 }
 

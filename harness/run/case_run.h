@@ -76,6 +76,7 @@ class CaseRun {
   void make_mask();
   void check_health_of(const Image& image);
   void check_lights();
+  void check_passes();
   void record(const FrameTimes& times);
   void describe_lights();
   void describe_shading();

@@ -22,6 +22,12 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
+Config read_config(const RunOptions& options) {
+  Config config = load_config(options.config);
+  for (Case& c : config.cases) c.frame.check_passes = options.check_passes;
+  return config;
+}
+
 std::vector<Case> select(const Config& config, const std::string& only) {
   std::vector<Case> cases;
   for (const Case& c : config.cases) {
@@ -128,6 +134,7 @@ Report fresh_report(const RunOptions& options, const Config& config, const Devic
   report.host = host_info();
   report.config = config.resolved;
   if (!options.only.empty()) report.config["only"] = options.only;
+  if (options.check_passes) report.config["check_passes"] = true;
   return report;
 }
 
@@ -158,12 +165,13 @@ fs::path assets_directory(const fs::path& given) {
 
 RunOutcome run_config(const RunOptions& options) {
   const Stopwatch watch;
-  const Config config = load_config(options.config);
+  const Config config = read_config(options);
   const std::vector<Case> cases = select(config, options.only);
   ReportStore store(options.out.empty() ? fs::path("reports") / "out" / config.name : options.out);
   const WorkerOptions workers = worker_options(options, config, store);
   const DeviceReport device = probe_device(workers);
   log_info("{} ({}, {})", device.name, device.driver, device.driver_version);
+  if (options.check_passes) log_warning("every pass runs by itself and is checked: times are not comparable");
 
   RunOutcome outcome;
   outcome.report_path = store.path();
@@ -186,7 +194,7 @@ RunOutcome run_config(const RunOptions& options) {
       save(so_far);
     };
     if (log.device_gone.empty()) {
-      const bool aa = !report.aa && !done.aa;
+      const bool aa = !options.check_passes && !report.aa && !done.aa;
       run_scene_in_workers(scene, config, wanted, aa, workers, save_so_far, &done, &log);
     } else {
       for (auto& result : failed_cases(wanted, config, "device", "the device was lost in an earlier scene"))

@@ -18,6 +18,7 @@ struct RunOptions {
   std::string device;            // index or part of a name; empty: the first usable
   bool force = false;            // measure again what an interrupted run had finished
   bool validation = false;       // with the validation layers; a message fails the run
+  bool check_passes = false;     // every pass by itself, its outputs looked at: FrameParameters::check_passes
   double time_limit_s = 0;       // replaces the config's; 0: the config's
   Announce sabotage;             // tests only, see WorkerOptions
   std::vector<std::string> argv;

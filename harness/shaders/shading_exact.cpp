@@ -1,8 +1,12 @@
 #include "shaders/shading_exact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <queue>
+#include <span>
 
 namespace vsglbench::exact {
 namespace {
@@ -44,12 +48,14 @@ dvec3 unit_or(const dvec3& v, const dvec3& fallback) {
   return length > 1e-15 ? v / length : fallback;
 }
 
+dvec3 reflect(const dvec3& view, const dvec3& n) { return 2 * glm::dot(view, n) * n - view; }
+
 // The receiver's specular lobe as an ASG about the mirror direction z, x in the plane of incidence
 // [MFIS16 App. C.2].
 struct Lobe {
   explicit Lobe(const Surface& s) : nv(std::max(glm::dot(s.normal, s.view), kLeastViewCosine)) {
     const dvec3 any = std::abs(s.normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-    z = 2 * glm::dot(s.view, s.normal) * s.normal - s.view;
+    z = reflect(s.view, s.normal);
     y = unit_or(glm::cross(s.normal, s.view), glm::normalize(glm::cross(s.normal, any)));
     x = glm::cross(y, z);
     eta_x = ndf_sharpness(s.ndf) / (8 * square(nv));
@@ -67,18 +73,171 @@ double clamped_cosine_by(const VsglShading& shading, double cosine, double sharp
   return std::clamp(diffuse_kernel(shading.diffuse, cosine, sharpness), 0.0, 1.0);
 }
 
+// The specular lobe's part of ∫ f G(ω;ξ,λ) cos, with C = peak · V · F · n·l pulled out of the integral: V and
+// n·l at `cosine`, F at ξ.
+dvec3 shade_specular(const Surface& s, const Lobe& lobe, const dvec3& axis, double sharpness, double cosine) {
+  const dvec3 local(glm::dot(axis, lobe.x), glm::dot(axis, lobe.y), glm::dot(axis, lobe.z));
+  const double integral = asg_product(local, sharpness, lobe.eta_x, lobe.eta_y);
+  const double half = 0.5 * glm::length(axis + s.view);  // cosine of the half angle
+  const double factor = ndf_peak(s.ndf) * smith(cosine, lobe.nv, masking_alpha(s.ndf)) * cosine;
+  return fresnel(s.f0, half) * (factor * integral);
+}
+
 // Reflected radiance per unit amplitude of incoming radiance G(ω;ξ,λ).
 dvec3 shade_sg(const Surface& s, const Lobe& lobe, const dvec3& axis, double sharpness,
                const VsglShading& shading) {
   const double nl = std::clamp(glm::dot(axis, s.normal), -1.0, 1.0);
   const dvec3 diffuse = s.diffuse / pi * sg_integral(sharpness) * clamped_cosine_by(shading, nl, sharpness);
-  // C(ξ) = peak · V · F · n·l, pulled out of the integral.
-  const dvec3 local(glm::dot(axis, lobe.x), glm::dot(axis, lobe.y), glm::dot(axis, lobe.z));
-  const double integral = asg_product(local, sharpness, lobe.eta_x, lobe.eta_y);
-  const double half = 0.5 * glm::length(axis + s.view);  // cosine of the half angle
-  const double cosine = std::max(nl, 0.0);
-  const double factor = ndf_peak(s.ndf) * smith(cosine, lobe.nv, masking_alpha(s.ndf)) * cosine;
-  return diffuse + fresnel(s.f0, half) * (factor * integral);
+  return diffuse + shade_specular(s, lobe, axis, sharpness, std::max(nl, 0.0));
+}
+
+// A light from a surface, with the floors of distance and σ².
+struct Sight {
+  Sight(const Surface& s, const gpu::Vsgl& light, bool disk) {
+    const dvec3 to_mean = dvec3(light.mean) - s.position;
+    distance2 = std::max(glm::dot(to_mean, to_mean), kLeastDistance2);
+    direction = to_mean / std::sqrt(distance2);
+    variance = std::max((disk ? 0.5 : 1) * static_cast<double>(light.variance), distance2 * kLeastVariance);
+  }
+  // Of the disk of radius r, r² = 2σ² [VSGL14 §3.1]: 2π(1-cosθ) = 4π sin²(θ/2), tan θ = r/d.
+  double radius2() const { return 2 * variance; }
+  double solid_angle() const {
+    return 4 * pi * square(std::sin(0.5 * std::atan2(std::sqrt(radius2()), std::sqrt(distance2))));
+  }
+  double distance2, variance;
+  dvec3 direction;
+};
+
+dvec3 shade_vsgl16(const Surface& s, const gpu::Vsgl& light, const VsglShading& shading) {
+  const Sight to(s, light, shading.disk);
+  const double sharpness = to.distance2 / to.variance;  // λ_σ, Eq. (11)
+  const Lobe receiver(s);
+  dvec3 sum(0);
+  const auto add = [&](const dvec3& intensity, const dvec3& axis, double lobe_sharpness) {
+    const SgProduct p = sg_product(to.direction, sharpness, -axis, lobe_sharpness);
+    const dvec3 amplitude = intensity / (2 * pi * to.variance) * std::exp(p.log_amplitude);  // Eq. (12)
+    sum += amplitude * shade_sg(s, receiver, p.axis, p.sharpness, shading);
+  };
+  add(light.diffuse, light.diffuse_axis, light.diffuse_sharpness);
+  add(light.specular, light.specular_axis, light.specular_sharpness);
+  return sum;
+}
+
+// [VSGL14 Eq. 3] over πr²: Σ_j Σ_l 2 ĉ_j c_l <ω_i,n_s> <-ω_i,n_i> ∫ Ĝ_j G_l G_V.
+dvec3 shade_vsgl14(const Surface& s, const gpu::Vsgl& light, const VsglShading& shading) {
+  const Sight to(s, light, shading.disk);
+  const Lobe receiver(s);
+  const double cosine = std::max(glm::dot(to.direction, s.normal), 0.0);
+  dvec3 sum(0);
+  const auto add = [&](const dvec3& c, const dvec3& axis, double lobe_sharpness) {
+    const SgProduct p = sg_product(to.direction, 4 * pi / to.solid_angle(), -axis, lobe_sharpness);
+    const dvec3 diffuse = s.diffuse / pi * cosine * sg_integral(p.sharpness);
+    const dvec3 specular = shade_specular(s, receiver, p.axis, p.sharpness, cosine);
+    sum += 2.0 * c * std::exp(p.log_amplitude) * (diffuse + specular);
+  };
+  const dvec3 power = dvec3(light.diffuse) * sg_integral(light.diffuse_sharpness);
+  add(power / pi * std::max(glm::dot(-to.direction, dvec3(light.diffuse_axis)), 0.0), light.diffuse_axis, 0);
+  add(light.specular, light.specular_axis, light.specular_sharpness);
+  return sum / (pi * to.radius2());
+}
+
+Surface surface_of(const gpu::Vpl& light) {
+  return {light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
+          light.f0,       light.ndf};
+}
+
+// ρ(ω) = Φ f(x2) f(x1) cos cos [VSGL14 §2].
+dvec3 rho(const Surface& s, const gpu::Vpl& light, const dvec3& direction) {
+  return dvec3(light.flux) * brdf_cosine(surface_of(light), -direction) * brdf_cosine(s, direction);
+}
+
+struct Cone {
+  dvec3 axis;
+  double half_angle;
+  dvec3 x, y;
+  dvec3 direction(double theta, double phi) const {
+    return std::cos(theta) * axis + std::sin(theta) * (std::cos(phi) * x + std::sin(phi) * y);
+  }
+};
+
+struct Peak {
+  dvec3 direction;
+  double width;  // rad
+};
+
+// Of a BRDF's reflected lobe, and its lesser width: that of the half vector's SG times 2 l·h. `sign` -1: for
+// directions towards the surface.
+Peak peak_of(const Surface& s, double sign) {
+  const double nv = std::max(glm::dot(s.normal, s.view), 0.05);
+  return {sign * reflect(s.view, s.normal), 2 * nv / std::sqrt(ndf_sharpness(s.ndf))};
+}
+
+// The rectangle of half widths (a, b) about (theta, phi).
+struct Cell {
+  double theta, phi, a, b;
+  dvec3 value{0};
+  double error = 0;
+  bool operator<(const Cell& other) const { return error < other.error; }
+  std::array<Cell, 4> quarters() const {
+    const double c = a / 2, d = b / 2;
+    return {Cell{theta - c, phi - d, c, d}, Cell{theta - c, phi + d, c, d}, Cell{theta + c, phi - d, c, d},
+            Cell{theta + c, phi + d, c, d}};
+  }
+};
+
+// ∫ over a cell by the 17 points of Genz and Malik's rule of degree 7; its error by theirs of degree 5.
+template <class Function>
+void evaluate(Cell& cell, const Function& f) {
+  static const double l2 = std::sqrt(9.0 / 70), l3 = std::sqrt(9.0 / 10), l5 = std::sqrt(9.0 / 19);
+  const auto at = [&](double u, double v) { return f(cell.theta + u * cell.a, cell.phi + v * cell.b); };
+  const auto cross = [&](double l) { return at(l, 0) + at(-l, 0) + at(0, l) + at(0, -l); };
+  const auto corners = [&](double l) { return at(l, l) + at(-l, l) + at(l, -l) + at(-l, -l); };
+  const dvec3 centre = at(0, 0), near = cross(l2), far = cross(l3), diagonal = corners(l3);
+  const double area = 4 * cell.a * cell.b;
+  cell.value = area * (-3816 / 19683.0 * centre + 980 / 6561.0 * near + 1020 / 19683.0 * far +
+                       200 / 19683.0 * diagonal + 6859 / 78732.0 * corners(l5));
+  const dvec3 fifth =
+      area * (-971 / 729.0 * centre + 245 / 486.0 * near + 65 / 1458.0 * far + 25 / 729.0 * diagonal);
+  cell.error = glm::length(cell.value - fifth);
+}
+
+// ∫ over the cone of f(ω) dω: cells are quartered where a peak could hide in one, then the worst of them.
+template <class Function>
+Integral integrate(const Cone& cone, std::span<const Peak> peaks, double relative_error, const Function& f) {
+  constexpr size_t kMostCells = 200000 / 17;
+  const auto integrand = [&](double theta, double phi) {
+    return std::sin(theta) * f(cone.direction(theta, phi));
+  };
+  const auto may_hide = [&](const Cell& c, const Peak& peak) {
+    const double extent = c.a + c.b * std::sin(std::min(c.theta + c.a, pi / 2));
+    const double away = glm::length(cone.direction(c.theta, c.phi) - peak.direction);
+    return extent > peak.width && away < extent + 4 * peak.width;
+  };
+  std::priority_queue<Cell> cells;
+  dvec3 value(0);
+  double error = 0;
+  const std::function<void(Cell)> add = [&](Cell cell) {
+    if (std::ranges::any_of(peaks, [&](const Peak& peak) { return may_hide(cell, peak); })) {
+      for (const Cell& quarter : cell.quarters()) add(quarter);
+      return;
+    }
+    evaluate(cell, integrand);
+    value += cell.value;
+    error += cell.error;
+    cells.push(cell);
+  };
+  constexpr int kRows = 6, kColumns = 16;
+  const double a = cone.half_angle / kRows / 2, b = pi / kColumns;
+  for (int i = 0; i < kRows * kColumns; ++i)
+    add({(2 * (i / kColumns) + 1) * a, (2 * (i % kColumns) + 1) * b, a, b});
+  while (cells.size() < kMostCells && error > relative_error * glm::length(value)) {
+    const Cell worst = cells.top();
+    cells.pop();
+    value -= worst.value;
+    error -= worst.error;
+    for (const Cell& quarter : worst.quarters()) add(quarter);
+  }
+  return {value, error};
 }
 
 }  // namespace
@@ -93,32 +252,51 @@ dvec3 brdf_cosine(const Surface& s, const dvec3& l) {
 
 dvec3 shade_vsgl(const Surface& s, const gpu::Vsgl& light, const VsglShading& shading) {
   if (light.power <= 0) return dvec3(0);
-  const dvec3 to_mean = dvec3(light.mean) - s.position;
-  const double distance2 = std::max(glm::dot(to_mean, to_mean), kLeastDistance2);
-  const dvec3 direction = to_mean / std::sqrt(distance2);
-  const double variance =
-      std::max((shading.disk ? 0.5 : 1) * static_cast<double>(light.variance), distance2 * kLeastVariance);
-  const double sharpness = distance2 / variance;  // λ_σ, Eq. (11)
-  const Lobe receiver(s);
-  dvec3 sum(0);
-  const auto add = [&](const dvec3& intensity, const dvec3& axis, double lobe_sharpness) {
-    const SgProduct p = sg_product(direction, sharpness, -axis, lobe_sharpness);
-    const dvec3 amplitude = intensity / (2 * pi * variance) * std::exp(p.log_amplitude);  // Eq. (12)
-    sum += amplitude * shade_sg(s, receiver, p.axis, p.sharpness, shading);
+  return shading.model == VsglModel::vsgl14 ? shade_vsgl14(s, light, shading)
+                                            : shade_vsgl16(s, light, shading);
+}
+
+double cancelling_alpha(const Surface& s, const gpu::Vsgl& light, const VsglShading& shading) {
+  const Lobe lobe(s);
+  const bool is_glossy = std::max({s.f0.x, s.f0.y, s.f0.z}) > 0;
+  const auto sharpness = [](const glm::vec3& power, float value) {
+    return power == glm::vec3(0) ? 0.0 : static_cast<double>(value);
   };
-  add(light.diffuse, light.diffuse_axis, light.diffuse_sharpness);
-  add(light.specular, light.specular_axis, light.specular_sharpness);
-  return sum;
+  const double receiver = is_glossy ? 2 * std::max(lobe.eta_x, lobe.eta_y) : 0;
+  const double emitter = std::max(sharpness(light.diffuse, light.diffuse_sharpness),
+                                  sharpness(light.specular, light.specular_sharpness));
+  return (receiver + emitter) * Sight(s, light, shading.disk).solid_angle() / (4 * pi);
+}
+
+dvec3 shade_cancelled(const Surface& s, const gpu::Vsgl& light, const gpu::Vpl& texel,
+                      const VsglShading& shading) {
+  const Sight to(s, light, shading.disk);
+  return rho(s, texel, to.direction) * to.solid_angle() / (pi * to.radius2());
 }
 
 dvec3 shade_vpl(const Surface& s, const gpu::Vpl& light) {
   const dvec3 to_light = dvec3(light.position) - s.position;
   const double distance2 = glm::dot(to_light, to_light);
   if (light.power <= 0 || distance2 <= 0) return dvec3(0);
-  const dvec3 direction = to_light / std::sqrt(distance2);
-  const Surface emitter{light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
-                        light.f0,       light.ndf};
-  return dvec3(light.flux) * brdf_cosine(emitter, -direction) * brdf_cosine(s, direction) / distance2;
+  return rho(s, light, to_light / std::sqrt(distance2)) / distance2;
+}
+
+Integral shade_vsl(const Surface& s, const gpu::Vpl& light, double relative_error) {
+  const double radius = light.radius;
+  if (light.power <= 0 || radius <= 0) return {};
+  const dvec3 to_light = dvec3(light.position) - s.position;
+  const double distance = glm::length(to_light);
+  const Surface emitter = surface_of(light);
+  Cone cone{unit_or(to_light, s.normal), distance > radius ? std::asin(radius / distance) : pi / 2, {}, {}};
+  cone.x =
+      glm::normalize(glm::cross(cone.axis, std::abs(cone.axis.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+  cone.y = glm::cross(cone.axis, cone.x);
+  const Peak peaks[] = {peak_of(s, 1), peak_of(emitter, -1)};
+  Integral integral =
+      integrate(cone, peaks, relative_error, [&](const dvec3& l) { return rho(s, light, l); });
+  integral.value /= pi * square(radius);
+  integral.error /= pi * square(radius);
+  return integral;
 }
 
 }  // namespace vsglbench::exact

@@ -1,8 +1,8 @@
 // Shading in double precision on the host: one light at one surface, without visibility. Written from the
 // papers, not from the GLSL of this folder, of which it is the oracle: of the pixels' kernel, of random
 // testing and of the stability suite. It keeps the kernel's stated conventions (floors, black lights), so
-// that a difference is one of arithmetic. Sources: [MFIS16] App. C, [VSGL15s] App. A–B, [VSGL14 Eq. 1];
-// Walter et al. 2007, Heitz 2014 (masking).
+// that a difference is one of arithmetic. Sources: [MFIS16] App. C, [VSGL15s] App. A–B, [VSGL14];
+// Walter et al. 2007, Heitz 2014 (masking), Genz and Malik 1980 (quadrature).
 #pragma once
 
 #include "shaders/sg_exact.h"
@@ -25,19 +25,45 @@ struct Surface {
 // normal's horizon and l above the face's.
 glm::dvec3 brdf_cosine(const Surface& surface, const glm::dvec3& l);
 
+// Of a VSGL, in the order of GLSL's SHADING_MODEL: products of SGs [MFIS16 App. C], or triple products with
+// the disk that the light is seen as [VSGL14 §3.1].
+enum class VsglModel { vsgl16, vsgl14 };
+
 struct VsglShading {
-  DiffuseKernel diffuse = DiffuseKernel::cosine;
-  bool disk = false;        // σ² counts half
-  bool quadrature = false;  // L(v,κ) itself, instead of `diffuse`
+  DiffuseKernel diffuse = DiffuseKernel::cosine;  // of vsgl16
+  bool disk = false;                              // σ² counts half
+  bool quadrature = false;                        // L(v,κ) itself, instead of `diffuse`
+  VsglModel model = VsglModel::vsgl16;
 };
 
-// Reflected radiance, W/(m² sr), of a light's both lobes [MFIS16 App. C]; 0 for a light of no power.
+// Reflected radiance, W/(m² sr), of a light's both lobes; 0 for a light of no power.
 // Conventions: n·v is 0.01 at least; the squared distance is 1e-20 m² at least; σ² is the squared distance ×
 // 2^-41 at least, so that λ_σ <= 2^41; every diffuse kernel but pettineo-hill is held to [0,1], and
-// pettineo-hill's sharpness to 1e-6 at least.
+// pettineo-hill's sharpness to 1e-6 at least. Of vsgl14: the light's diffuse lobe is its power over π with
+// sharpness 0 and n_i its axis; its specular lobe holds its cosine [MFIS16 Eq. 7], so <-ω_i,n_i> is left out
+// there; of the receiver's coefficient, masking is taken at ω_i with the cosine, Fresnel at the axis of the
+// product of the light's lobe and the disk.
 glm::dvec3 shade_vsgl(const Surface& surface, const gpu::Vsgl& light, const VsglShading& shading);
+
+// Consistent bias reduction [VSGL14 §3.3]. A light is cancelled where η_p < α 4π/|Ω|, which is where α is
+// above cancelling_alpha() = η_p |Ω|/4π. η_p, the sharpness of the sharpest product of a lobe of the receiver
+// (an ASG of bandwidth η has 2η; a diffuse one 0) and one of the light's, is the sum of the two. The same
+// floors as above.
+double cancelling_alpha(const Surface& surface, const gpu::Vsgl& light, const VsglShading& shading);
+// What it is shaded with then: ρ(ω_i) |Ω|/(πr²) with exact BRDFs, `texel` at the light's end.
+glm::dvec3 shade_cancelled(const Surface& surface, const gpu::Vsgl& light, const gpu::Vpl& texel,
+                           const VsglShading& shading);
 
 // Φ f(x2) f(x1) cos cos / d² [VSGL14 Eq. 1]; 0 for a light of no power, or at the surface itself.
 glm::dvec3 shade_vpl(const Surface& surface, const gpu::Vpl& light);
+
+struct Integral {
+  glm::dvec3 value{0};
+  double error = 0;  // bound on |error| as the rule sees it
+};
+// A virtual spherical light's ∫ρ(ω)V(ω)dω / (πr²) [VSGL14 Eq. 2] over the cone of half angle asin(r/d), π/2
+// inside the sphere, by adaptive quadrature to `relative_error`, or as near as 200 thousand evaluations come.
+// 0 for a light of no power or radius.
+Integral shade_vsl(const Surface& surface, const gpu::Vpl& light, double relative_error);
 
 }  // namespace vsglbench::exact

@@ -71,7 +71,8 @@ bool is_cancelled(Receiver r, Vsgl light, float alpha) {
   float radius2 = 2.0 * shading_variance(light, distance2);
   vec3 f0 = r.surface.f0;
   float receiver = max(f0.r, max(f0.g, f0.b)) > 0.0 ? 2.0 * max(r.eta_x, r.eta_y) : 0.0;
-  float emitter = luminance(light.specular) > 0.0 ? light.specular_sharpness : light.diffuse_sharpness;
+  float emitter = max(luminance(light.specular) > 0.0 ? light.specular_sharpness : 0.0,
+                      luminance(light.diffuse) > 0.0 ? light.diffuse_sharpness : 0.0);
   return (receiver + emitter) * solid_angle_over_area(sqrt(distance2), radius2) * radius2 < 4.0 * alpha;
 }
 

@@ -1,9 +1,9 @@
 // The kernels of `mfis` round centres drawn by Metropolis-Hastings (Barák et al. 2013; [MFIS16] §6, Fig. 8).
 //
 // Unlike Barák et al., who carry each chain over from one frame to the next, every frame runs each chain anew from the
-// same start with the same random numbers. A centre depends on the PDF alone, and a PDF that changes a little changes
-// few decisions to accept: most centres stay exactly where they were. There is no state to warm up or to lose, and a
-// frame can be repeated.
+// point that `mfis` would take with the same random numbers. A centre depends on the PDF alone, and a PDF that changes a
+// little changes few decisions to accept: most centres stay exactly where they were. There is no state to warm up or to
+// lose, and a frame can be repeated.
 #version 460
 #include "types.h"
 #define OWN_CENTRES
@@ -29,7 +29,8 @@ vec2 propose(vec2 x, uvec2 word) {
 }
 
 uvec2 choose_texel(uint i) {
-  vec2 x = unit_interval(lattice_point(i, step, shift));
+  // A start that is distributed as p is leaves nothing to warm up, however narrow a peak is.
+  vec2 x = (vec2(warp(base_size(), unit_interval(lattice_point(i, step, shift)))) + 0.5) / vec2(base_size());
   uint chain = random_hash(i ^ random_hash(shift));
   for (uint t = 0u; t < kSteps; ++t) {
     uint word = random_hash(chain + 2u * t);

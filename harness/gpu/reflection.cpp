@@ -1,0 +1,244 @@
+#include "gpu/reflection.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "base/error.h"
+
+namespace vsglbench {
+namespace {
+
+// The few SPIR-V opcodes and enumerants that reflection needs (SPIR-V specification 1.6, section 3).
+enum Op : uint32_t {
+  kMemberName = 6,
+  kTypeFloat = 22,
+  kTypeVector = 23,
+  kTypeMatrix = 24,
+  kTypeImage = 25,
+  kTypeSampledImage = 27,
+  kTypeArray = 28,
+  kTypeRuntimeArray = 29,
+  kTypeStruct = 30,
+  kTypePointer = 32,
+  kConstant = 43,
+  kVariable = 59,
+  kDecorate = 71,
+  kMemberDecorate = 72,
+  kBitcast = 124
+};
+enum Decoration : uint32_t {
+  kRowMajor = 4,
+  kArrayStride = 6,
+  kMatrixStride = 7,
+  kNonWritable = 24,
+  kBinding = 33,
+  kDescriptorSet = 34,
+  kOffset = 35
+};
+enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
+
+using Words = std::span<const uint32_t>;       // of one instruction, its opcode first
+using Member = std::pair<uint32_t, uint32_t>;  // struct type, index
+
+struct Variable {
+  uint32_t pointer_type, storage;
+};
+
+struct Reflected {
+  std::map<uint32_t, uint32_t> binding, set;         // variable → decoration
+  std::map<uint32_t, uint32_t> array_stride;         // array type → bytes
+  std::map<Member, uint32_t> offset, matrix_stride;  // bytes
+  std::map<Member, std::string> member_name;
+  std::set<Member> row_major, read_only_member;
+  std::set<uint32_t> read_only;            // variables
+  std::map<uint32_t, Words> types;         // result id → instruction
+  std::map<uint32_t, uint32_t> constants;  // of one word: result id → value
+  std::map<uint32_t, Variable> variables;
+  bool infinite_constant = false;
+
+  // Of an array type with a length; 0 where a specialisation constant sets it.
+  uint32_t length(uint32_t array) const {
+    const auto known = constants.find(types.at(array)[3]);
+    return known == constants.end() ? 0 : known->second;
+  }
+  uint32_t opcode(uint32_t type) const { return types.count(type) ? types.at(type)[0] & 0xffff : 0; }
+};
+
+bool is_infinite(uint32_t bits) { return (bits & 0x7fffffffu) == 0x7f800000u; }
+
+void take_decoration(Words w, Reflected& r) {
+  if (w[2] == kNonWritable) r.read_only.insert(w[1]);
+  if (w.size() < 4) return;
+  if (w[2] == kBinding) r.binding[w[1]] = w[3];
+  if (w[2] == kDescriptorSet) r.set[w[1]] = w[3];
+  if (w[2] == kArrayStride) r.array_stride[w[1]] = w[3];
+}
+
+void take_member_decoration(Words w, Reflected& r) {
+  const Member member{w[1], w[2]};
+  if (w[3] == kNonWritable) r.read_only_member.insert(member);
+  if (w[3] == kRowMajor) r.row_major.insert(member);
+  if (w.size() < 5) return;
+  if (w[3] == kOffset) r.offset[member] = w[4];
+  if (w[3] == kMatrixStride) r.matrix_stride[member] = w[4];
+}
+
+void take(Words w, Reflected& r) {
+  const uint32_t opcode = w[0] & 0xffff;
+  if (opcode >= kTypeFloat && opcode <= kTypePointer && w.size() >= 2) r.types[w[1]] = w;
+  if (opcode == kDecorate && w.size() >= 3) take_decoration(w, r);
+  if (opcode == kMemberDecorate && w.size() >= 4) take_member_decoration(w, r);
+  if (opcode == kMemberName && w.size() >= 4) {
+    const auto* text = reinterpret_cast<const char*>(&w[3]);
+    r.member_name[{w[1], w[2]}] = std::string(text, strnlen(text, 4 * (w.size() - 3)));
+  }
+  if (opcode == kConstant && w.size() == 4) {
+    r.constants[w[2]] = w[3];
+    r.infinite_constant |= r.opcode(w[1]) == kTypeFloat && is_infinite(w[3]);
+  }
+  if (opcode == kBitcast && w.size() == 4 && r.constants.count(w[3])) {
+    r.infinite_constant |= r.opcode(w[1]) == kTypeFloat && is_infinite(r.constants.at(w[3]));
+  }
+  if (opcode == kVariable && w.size() >= 4) r.variables[w[2]] = {w[1], w[3]};
+}
+
+Reflected scan(const std::vector<uint32_t>& spirv) {
+  Reflected r;
+  for (size_t i = 5; i < spirv.size();) {
+    const uint32_t words = spirv[i] >> 16;
+    if (words == 0 || i + words > spirv.size()) break;
+    take(Words(&spirv[i], words), r);
+    i += words;
+  }
+  return r;
+}
+
+// Finds the floats of an element, however deep.
+class FloatFinder {
+ public:
+  explicit FloatFinder(const Reflected& reflected) : r_(reflected) {}
+
+  // `owner`: the member of a struct that the value is, or is part of, which says how matrices lie.
+  void find(uint32_t type, Member owner, const std::string& name, uint32_t offset) {
+    const Words w = r_.types.count(type) ? r_.types.at(type) : Words();
+    switch (r_.opcode(type)) {
+      case kTypeFloat:
+        if (w[2] == 32) fields.push_back({name, offset});
+        break;
+      case kTypeVector:
+        for (uint32_t i = 0; i < w[3]; ++i)
+          find(w[2], owner, within(name, std::string(1, "xyzw"[i % 4])), offset + 4 * i);
+        break;
+      case kTypeMatrix:
+        find_matrix(w, owner, name, offset);
+        break;
+      case kTypeArray:
+        for (uint32_t i = 0; i < r_.length(type); ++i)
+          find(w[2], owner, fmt::format("{}[{}]", name, i), offset + i * r_.array_stride.at(type));
+        break;
+      case kTypeStruct:
+        for (uint32_t i = 0; i + 2 < w.size(); ++i) {
+          const Member member{type, i};
+          find(w[i + 2], member, within(name, name_of(member)), offset + r_.offset.at(member));
+        }
+        break;
+      default:;
+    }
+  }
+  std::string name_of(Member member) const {
+    return r_.member_name.count(member) ? r_.member_name.at(member) : fmt::format("member{}", member.second);
+  }
+
+  std::vector<FloatField> fields;
+
+ private:
+  static std::string within(const std::string& outer, const std::string& inner) {
+    return outer.empty() ? inner : outer + "." + inner;
+  }
+  void find_matrix(Words w, Member owner, const std::string& name, uint32_t offset) {
+    const uint32_t columns = w[3], rows = r_.types.at(w[2])[3], scalar = r_.types.at(w[2])[2];
+    const uint32_t stride = r_.matrix_stride.at(owner);
+    const bool row_major = r_.row_major.count(owner) > 0;
+    for (uint32_t c = 0; c < columns; ++c) {
+      for (uint32_t row = 0; row < rows; ++row) {
+        const uint32_t at = row_major ? row * stride + 4 * c : c * stride + 4 * row;
+        find(scalar, owner, fmt::format("{}[{}][{}]", name, c, row), offset + at);
+      }
+    }
+  }
+  const Reflected& r_;
+};
+
+// One member of a block.
+FloatArray float_array(const Reflected& r, Member member, uint32_t type) {
+  FloatFinder finder(r);
+  FloatArray array;
+  array.name = finder.name_of(member);
+  array.offset = r.offset.at(member);
+  array.count = 1;
+  uint32_t element = type;
+  const uint32_t opcode = r.opcode(type);
+  if (opcode == kTypeArray || opcode == kTypeRuntimeArray) {
+    element = r.types.at(type)[2];
+    array.stride = r.array_stride.at(type);
+    array.count = opcode == kTypeArray ? r.length(type) : 0;
+  }
+  finder.find(element, member, "", 0);
+  array.fields = std::move(finder.fields);
+  return array;
+}
+
+}  // namespace
+
+std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spirv, const std::string& name) {
+  const Reflected r = scan(spirv);
+  std::map<uint32_t, VkDescriptorType> found;
+  for (const auto& [id, binding] : r.binding) {
+    if (r.set.count(id) && r.set.at(id) != 0) {
+      throw fail(ErrorKind::plugin, "{}: binding {} is in set {}; use set 0", name, binding, r.set.at(id));
+    }
+    const auto [pointer, storage] = r.variables.at(id);
+    const bool sampled = r.opcode(r.types.at(pointer)[3]) == kTypeSampledImage;
+    if (storage == kStorageBuffer) {
+      found[binding] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    } else if (storage == kUniform) {
+      found[binding] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    } else if (storage == kUniformConstant && sampled) {
+      found[binding] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    } else {
+      throw fail(ErrorKind::plugin, "{}: binding {} is neither a buffer nor a sampler", name, binding);
+    }
+  }
+  std::vector<VkDescriptorType> types;
+  for (const auto& [binding, type] : found) {
+    if (binding != types.size())
+      throw fail(ErrorKind::plugin, "{}: binding {} is missing", name, types.size());
+    types.push_back(type);
+  }
+  return types;
+}
+
+FloatOutputs reflect_float_outputs(const std::vector<uint32_t>& spirv) {
+  const Reflected r = scan(spirv);
+  FloatOutputs outputs{.uses_infinity = r.infinite_constant};
+  for (const auto& [id, binding] : r.binding) {
+    const auto [pointer, storage] = r.variables.at(id);
+    const uint32_t block = r.types.at(pointer)[3];
+    if (storage != kStorageBuffer || r.read_only.count(id) || r.opcode(block) != kTypeStruct) continue;
+    const Words members = r.types.at(block).subspan(2);
+    for (uint32_t i = 0; i < members.size(); ++i) {
+      if (r.read_only_member.count({block, i})) continue;
+      FloatArray array = float_array(r, {block, i}, members[i]);
+      array.binding = binding;
+      if (!array.fields.empty()) outputs.arrays.push_back(std::move(array));
+    }
+  }
+  return outputs;
+}
+
+}  // namespace vsglbench
