@@ -49,12 +49,15 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     throw fail(ErrorKind::output, "{}: cannot create the folder: {}", path.parent_path().string(),
                ec.message());
   }
-  const fs::path temporary = temporary_beside(path);
+  // A device or a pipe is written to, and what a link points to replaced; neither is itself.
+  const bool special = fs::exists(path, ec) && !fs::is_regular_file(path, ec) && !fs::is_directory(path, ec);
+  const fs::path target = fs::is_symlink(path, ec) ? fs::weakly_canonical(path) : path;
+  const fs::path temporary = special ? target : temporary_beside(target);
   try {
     write(temporary);
-    fs::rename(temporary, path);
+    if (!special) fs::rename(temporary, target);
   } catch (const std::exception& e) {
-    fs::remove(temporary, ec);
+    if (!special) fs::remove(temporary, ec);
     throw fail(ErrorKind::output, "{}: cannot be written: {}", path.string(), e.what());
   }
 }

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/error.h"
+
 namespace vsglbench {
 namespace {
 
@@ -23,7 +25,9 @@ Contraction contraction_asked() {
   const char* asked = std::getenv("VSGLBENCH_CONTRACTION");
   const std::string_view value = asked ? asked : "";
   if (value == "never") return Contraction::never;
-  return value == "always" ? Contraction::always : Contraction::as_written;
+  if (value == "always") return Contraction::always;
+  if (value.empty()) return Contraction::as_written;
+  throw fail(ErrorKind::usage, "$VSGLBENCH_CONTRACTION is '{}'; use never or always, or unset it", value);
 }
 
 void set_contraction(Contraction contraction, std::vector<uint32_t>* spirv) {

@@ -211,6 +211,8 @@ std::string kernel_sources_hash() {
   }
   Hasher hasher;
   for (const auto& [name, path] : files) hasher.text(name).text(read_text(path));
+  if (const Contraction c = contraction_asked(); c != Contraction::as_written)
+    hasher.text(fmt::format("contraction {}", static_cast<int>(c)));
   return hasher.hex();
 }
 

@@ -18,7 +18,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
-    if (entry.is_directory(ec) || entry.path().extension() == ".json")
+    if (fs::exists(entry.path() / "scene.json", ec) || entry.path().extension() == ".json")
       names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
@@ -114,7 +114,7 @@ void read_reference(const JsonDocument& doc, Config* config) {
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
   std::vector<std::string> unread = {"seeds",      "reference",  "visibility",    "ism",
-                                     "importance", "iterations", "bias_reduction"};
+                                     "importance", "progressive", "bias_reduction"};
   for (const ShadingAxis& axis : shading_axes()) unread.push_back(axis.key);
   for (const auto& key : unread) {
     if (doc.root().contains(key))
@@ -132,7 +132,7 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
               {"methods", root.at("methods")},
               {"frame", {{"width", base.width}, {"height", base.height}}}};
   for (const auto& [key, value] : case_defaults().items()) {
-    const bool shades = key == "visibility" || key == "importance" || key == "iterations" ||
+    const bool shades = key == "visibility" || key == "importance" || key == "progressive" ||
                         key == "bias_reduction" || is_shading_key(key);
     if (!shades || !generation) out[key] = root.value(key, value);
   }

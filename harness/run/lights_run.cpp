@@ -139,11 +139,14 @@ void LightsRun::draw(Stage& stage, ScenePdfs* shared, const Case& c, LightsResul
   write_png(folder / "rsm.png", draw_on_rsm(lights, light, fallback, result->coverage, captions));
   write_png(folder / "scene.png", draw_in_scene(lights, camera_view_of(frame, scene), captions));
   Json list = light_list(lights, scene.origin);
+  std::error_code ec;
   if (options_.csv) {
+    fs::remove(folder / "lights.json", ec);  // of an earlier run
     write_text(folder / "lights.csv", to_csv(list));
   } else {
     Json json = describe(c, lights, scene, *result);
     json["lights"] = std::move(list);
+    fs::remove(folder / "lights.csv", ec);
     write_text(folder / "lights.json", json.dump(1) + "\n");
   }
 }

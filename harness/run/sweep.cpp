@@ -1,6 +1,7 @@
 #include "run/sweep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/error.h"
@@ -29,8 +30,11 @@ std::vector<std::string> case_keys() {
 // Keys that mean nothing to VPLs, which have exact BRDFs; and those that mean nothing where no frame is shaded.
 bool is_vsgl_key(const std::string& key) { return is_shading_key(key) || key == "bias_reduction"; }
 bool is_frame_key(const std::string& key) {
-  return is_vsgl_key(key) || key == "visibility" || key == "importance" || key == "iterations";
+  return is_vsgl_key(key) || key == "visibility" || key == "importance" || key == "progressive";
 }
+
+// Those of the PDF, which methods that draw no lights make no use of.
+bool is_pdf_key(const std::string& key) { return key == "importance" || key == "importance_lights"; }
 
 bool always_named(const std::string& key) { return key == "N" || key == "rsm" || key == "visibility"; }
 
@@ -138,6 +142,8 @@ class Entry {
                                                           : "a light of every texel";
         throw doc_.error(at, fmt::format("is not read: {} makes {}", method_.name, makes));
       }
+      if (is_pdf_key(key) && !method_.takes_light_count)
+        throw doc_.error(at, fmt::format("is not read: {} draws no lights", method_.name));
       if (is_frame_key(key) && !is_own(key) && !sees_)
         throw doc_.error(at, "is not read where only generation is measured");
       if (is_vsgl_key(key) && !is_own(key) && !reads_shading())
@@ -150,6 +156,7 @@ class Entry {
     for (const auto& key : case_keys()) {
       const bool read = is_own(key)         ? false
                         : key == "N"        ? method_.takes_light_count
+                        : is_pdf_key(key) && !method_.takes_light_count ? false
                         : is_vsgl_key(key)  ? reads_shading()
                         : is_frame_key(key) ? sees_
                                             : true;
@@ -234,7 +241,7 @@ class Entry {
       frame->visibility = choice(axis, value, parse_visibility);
     } else if (axis.key == "importance") {
       frame->importance = choice(axis, value, parse_importance);
-    } else if (axis.key == "iterations") {
+    } else if (axis.key == "progressive") {
       frame->iterations = count(axis, value, 1, kMaxIterations);
     } else if (axis.key == "bias_reduction") {
       frame->bias_reduction = number(axis, value, 1e30);
@@ -258,7 +265,7 @@ class Entry {
   float number(const Axis& axis, const Json& value, double maximum) const {
     if (!value.is_number() || !(value.get<double>() >= 0) || value.get<double>() > maximum)
       throw doc_.error(axis.at, fmt::format("{} must be a number within 0 … {}", value.dump(), maximum));
-    return value.get<float>();
+    return std::abs(value.get<float>());  // -0 is 0
   }
 
   template <class Choice>
@@ -285,12 +292,13 @@ class Entry {
     p["rsm"] = c.frame.rsm;
     p["width"] = c.frame.width;
     p["height"] = c.frame.height;
-    p["importance_lights"] = c.frame.importance_lights;
+    if (method_.takes_light_count) p["importance_lights"] = c.frame.importance_lights;
     if (sees_) p["visibility"] = visibility_name(c.frame.visibility);
     if (has_shadow_maps(c.frame.visibility))
       p["ism"] = {{"size", c.frame.ism.size}, {"points", c.frame.ism.points}};
-    if (sees_) p["importance"] = importance_names()[static_cast<size_t>(c.frame.importance)];
-    if (sees_) p["iterations"] = c.frame.iterations;
+    if (sees_ && method_.takes_light_count)
+      p["importance"] = importance_names()[static_cast<size_t>(c.frame.importance)];
+    if (sees_) p["progressive"] = c.frame.iterations;
     for (const auto& [key, choice] : c.frame.shading) p[key] = choice;
     if (!c.frame.shading.empty()) p["bias_reduction"] = c.frame.bias_reduction;
     for (const auto& [key, value] : c.method_parameters.items()) p[key] = value;
@@ -310,7 +318,7 @@ class Entry {
 const Json& case_defaults() {
   static const Json defaults = [] {
     Json all = {{"N", 256},           {"rsm", 256},        {"importance_lights", 2048}, {"visibility", "exact"},
-                {"importance", "own"}, {"iterations", 1}, {"bias_reduction", 0}};
+                {"importance", "own"}, {"progressive", 1}, {"bias_reduction", 0}};
     for (const ShadingAxis& axis : shading_axes()) all[axis.key] = axis.choices.front();
     return all;
   }();

@@ -25,14 +25,14 @@ Shading shading_of(const StabilityRow& row, const std::string& diffuse) {
 }
 
 // Nothing for the model that shaders/shading_exact.h lacks.
-std::optional<exact::VsglShading> exact_shading(const Shading& shading) {
-  if (const auto model = shading.find("shading"); model != shading.end() && model->second != "vsgl16")
-    return {};
+exact::VsglShading exact_shading(const Shading& shading) {
+  exact::VsglShading out;
+  if (const auto model = shading.find("shading"); model != shading.end() && model->second == "vsgl14")
+    out.model = exact::VsglModel::vsgl14;
   const auto& names = exact::diffuse_kernel_names();
-  const auto diffuse = shading.find("diffuse");
-  if (diffuse == shading.end()) return exact::VsglShading{};
-  return exact::VsglShading{.diffuse = static_cast<exact::DiffuseKernel>(
-                                std::ranges::find(names, diffuse->second) - names.begin())};
+  if (const auto diffuse = shading.find("diffuse"); diffuse != shading.end())
+    out.diffuse = static_cast<exact::DiffuseKernel>(std::ranges::find(names, diffuse->second) - names.begin());
+  return out;
 }
 
 const ParameterInfo* parameter_named(const MethodInfo& method, const std::string& name) {
