@@ -5,9 +5,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
-#include "figure/figure.h"
+#include "figure/drawing.h"
 #include "report/environment.h"
 #include "run/config.h"
+#include "run/memory.h"
 #include "run/runner.h"
 
 namespace vsglbench {
@@ -17,25 +18,35 @@ struct FigureOptions {
   std::string figure, device, assets;
   std::filesystem::path out;
   uint32_t width = 0, height = 0;
+  double silence_s = 600;
 };
 
 // What was drawn, from what, on what.
-Json provenance(const FigureInputs& inputs, const FigureOutput& figure,
-                const std::vector<std::string>& argv) {
-  const DeviceInfo& d = inputs.device.info();
+Json provenance(const Json& config, const DrawnFigure& figure, const std::vector<std::string>& argv) {
   const HostInfo host = host_info();
   Json claims = Json::array();
   for (const Claim& c : figure.claims) {
-    claims.push_back({{"claim", c.text}, {"source", c.source}, {"holds", c.holds}, {"figures", c.figures}});
+    const Json holds = c.finding == Finding::undecided ? Json() : Json(c.finding == Finding::holds);
+    claims.push_back({{"claim", c.text}, {"source", c.source}, {"holds", holds}, {"figures", c.figures}});
   }
   return {{"schema", "vsglbench.figure/1"},
           {"argv", argv},
-          {"config", inputs.config},
+          {"config", config},
           {"claims", claims},
           {"git", {{"commit", build_git().commit}, {"dirty", build_git().dirty}}},
-          {"device",
-           {{"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}}},
+          {"device", figure.device},
           {"host", {{"cpu", host.cpu}, {"cores", host.cores}}}};
+}
+
+// Throws Error(case_failed) for a frame that is larger than the memory.
+void require_room(const Json& config, const DeviceInfo& device) {
+  if (!config.contains("rsm")) return;
+  Case c;
+  c.frame.width = config["width"];
+  c.frame.height = config["height"];
+  c.frame.rsm = config["rsm"];
+  c.frame.visibility = Visibility::none;
+  require_memory(device, c);
 }
 
 void draw(const FigureOptions& o, const std::vector<std::string>& argv) {
@@ -43,19 +54,17 @@ void draw(const FigureOptions& o, const std::vector<std::string>& argv) {
   const std::string name = config.at("figure");
   const auto folder = o.out.empty() ? std::filesystem::path("reports/out") / name : o.out;
   ensure_writable_directory(std::filesystem::absolute(folder));
-  Device device({.select = o.device});
-  const FigureInputs inputs{device, config, assets_directory(o.assets)};
-  const FigureOutput figure = make_figure(inputs);
-  for (const auto& path : write_figure(figure, folder)) fmt::print("{}\n", path.string());
+  const DrawnFigure figure = draw_figure({config, assets_directory(o.assets), folder, o.device, o.silence_s,
+                                          [&](const DeviceInfo& device) { require_room(config, device); }});
+  for (const auto& path : figure.paths) fmt::print("{}\n", path.string());
   const auto report = folder / (name + ".json");
-  write_text(report, provenance(inputs, figure, argv).dump(2) + "\n");
+  write_text(report, provenance(config, figure, argv).dump(2) + "\n");
   fmt::print("{}\n", report.string());
-  for (const FigureTable& table : figure.tables) {
-    if (table.rows.size() <= 20) fmt::print("\n{}", table.csv());
-  }
+  for (const std::string& table : figure.short_tables) fmt::print("\n{}", table);
   fmt::print("\n");
   for (const Claim& c : figure.claims) {
-    fmt::print("{} {}: {} ({})\n", c.source, c.holds ? "holds" : "does not hold here", c.text, c.figures);
+    fmt::print("{} {}{}: {} ({})\n", c.source, finding_name(c.finding),
+               c.finding == Finding::holds ? "" : " here", c.text, c.figures);
   }
 }
 
@@ -66,17 +75,24 @@ void add_figure_command(CLI::App& app, const std::vector<std::string>& argv, Com
   CLI::App* command =
       app.add_subcommand("figure", "reproduce a paper's figure: CSV, SVG, PNG, and whether its claims hold");
   command->footer(
-      "A claim that does not hold is a finding, no failure.\n"
+      "A claim that does not hold is a finding, no failure; so is one that the noise leaves undecided.\n"
+      "Exit codes: 0 drawn, 1 the method failed, 2 bad usage, config, scene, plugin or output, 3 no usable "
+      "device.\n"
       "Example: vsglbench figure sgl22-1 --out figures");
   command
       ->add_option("figure", options->figure, "config of the figure: a file, or the name of one in configs/")
       ->required();
   command->add_option("--out", options->out, "folder for the files (default reports/out/FIGURE)");
   command->add_option("--width", options->width, "pixels, instead of the config's")
-      ->check(CLI::Range(1, 16384));
+      ->check(CLI::Range(1, 65536));
   command->add_option("--height", options->height, "pixels, instead of the config's")
-      ->check(CLI::Range(1, 16384));
+      ->check(CLI::Range(1, 65536));
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
+  command
+      ->add_option("--time-limit", options->silence_s,
+                   "seconds that one step, such as a frame, may take before the figure is stopped")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--device", options->device, "Vulkan device: index or part of its name");
   command->callback([=] { draw(*options, argv); });
 }

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
@@ -19,11 +17,6 @@ constexpr std::pair<const char*, MakeFigure> kFigures[] = {{"sgl22-1", sgl22::wa
                                                            {"sgl22-3", sgl22::hemisphere},
                                                            {"sgl22-4", sgl22::lights}};
 
-Json figure_schema(const std::string& name) {
-  const auto path = data_root() / "harness" / "figure" / "figure.schema.json";
-  return JsonDocument::load(path, ErrorKind::config).root().at("$defs").at(name);
-}
-
 // A cell in quotes where it needs them (RFC 4180).
 std::string quoted(const std::string& cell) {
   if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
@@ -33,6 +26,18 @@ std::string quoted(const std::string& cell) {
 }
 
 }  // namespace
+
+const char* finding_name(Finding finding) {
+  switch (finding) {
+    case Finding::holds:
+      return "holds";
+    case Finding::does_not_hold:
+      return "does not hold";
+    case Finding::undecided:
+      return "undecided";
+  }
+  return "";
+}
 
 std::string FigureTable::cell(double value) { return fmt::format("{:.10g}", value); }
 
@@ -53,32 +58,6 @@ const std::vector<std::string>& figure_names() {
     return all;
   }();
   return names;
-}
-
-Json load_figure_config(const std::filesystem::path& path, uint32_t width, uint32_t height) {
-  const JsonDocument document = JsonDocument::load(path, ErrorKind::config);
-  if (!document.root().is_object() || !document.root().contains("figure")) {
-    throw document.error(
-        "", "describes no figure: it has no key \"figure\"; run experiments with `vsglbench run`");
-  }
-  const Json& figure = document.root()["figure"];
-  const auto& names = figure_names();
-  if (!figure.is_string() || std::ranges::count(names, figure.get<std::string>()) == 0) {
-    throw document.error("/figure",
-                         fmt::format("names no figure: {}{}", figure.dump(),
-                                     figure.is_string() ? suggestion(figure.get<std::string>(), names) : ""));
-  }
-  check_schema(document, figure_schema(figure));
-  Json config = document.root();
-  for (const auto& [key, size] : {std::pair("width", width), std::pair("height", height)}) {
-    if (size == 0) continue;
-    if (!config.contains(key)) {
-      throw fail(ErrorKind::usage, "--{} means nothing to {}: it has no image", key,
-                 figure.get<std::string>());
-    }
-    config[key] = size;
-  }
-  return config;
 }
 
 FigureOutput make_figure(const FigureInputs& inputs) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,10 +32,15 @@ struct FigureTable {
   static std::string cell(double value);
 };
 
+// Undecided: the noise of what was measured is larger than the difference.
+enum class Finding { holds, does_not_hold, undecided };
+inline Finding finding(bool holds) { return holds ? Finding::holds : Finding::does_not_hold; }
+const char* finding_name(Finding finding);
+
 // What a paper says of its figure, and whether it is so here.
 struct Claim {
   std::string text, source;  // source: paper and place
-  bool holds = false;
+  Finding finding = Finding::undecided;
   std::string figures;  // that show it
 };
 
@@ -49,12 +55,15 @@ struct FigureInputs {
   Device& device;
   Json config;                   // checked
   std::filesystem::path assets;  // where downloaded scenes lie
+  // Told what is about to be done, before each step that may take long: "a frame of 480×270, cosine".
+  std::function<void(const std::string& step)> begin = [](const std::string&) {};
 };
 
 const std::vector<std::string>& figure_names();
 
-// Reads and checks the config of a figure; a width or height that is not 0 replaces its own. Throws
-// Error(config) "FILE:LINE: ...", Error(usage) for a size where the figure has none.
+// Reads and checks the config of a figure, with its scene's name, method, parameters and N; a width or height
+// that is not 0 replaces its own. Throws Error(config) "FILE:LINE: ...", Error(usage) for a size where the
+// figure has none, or one beyond the config's limits.
 Json load_figure_config(const std::filesystem::path& path, uint32_t width, uint32_t height);
 
 // Throws Error(scene), Error(plugin) or Error(case_failed), by what fails.

@@ -71,7 +71,7 @@ TEST(FigureWall, TheNewKernelIsBetterThanItsForerunners) {
   EXPECT_LT(smape("tokuyoshi2022"), smape("pettineo-hill"));
   EXPECT_LT(smape("tokuyoshi2022"), smape("cosine"));
   EXPECT_LT(smape("tokuyoshi2024"), smape("tokuyoshi2022"));
-  EXPECT_TRUE(claim(figure, "SMAPE").holds);
+  EXPECT_EQ(claim(figure, "SMAPE").finding, Finding::holds);
   // Far from its foot the light is a planar Gaussian of cosines N(h/d,σ²/d²): E max(x,0), times d, is
   // hΦ(h/σ) + σφ(h/σ).
   const FigureTable& along = table(figure, "sgl22-1-profile");
@@ -95,7 +95,7 @@ TEST(FigureWall, ASmallLightIsAPoint) {
 TEST(FigureCosine, ReproducesThePublishedParameters) {
   const FigureOutput figure = make(config("sgl22-2"));
   expect_whole(figure);
-  for (const Claim& c : figure.claims) EXPECT_TRUE(c.holds) << c.text << ": " << c.figures;
+  for (const Claim& c : figure.claims) EXPECT_EQ(c.finding, Finding::holds) << c.text << ": " << c.figures;
   const FigureTable& t = table(figure, "sgl22-2-parameters");
   EXPECT_NEAR(number(t, {"tokuyoshi2022", "alpha"}, "value"), 1182.2467, 1e-3);
   EXPECT_NEAR(number(t, {"tokuyoshi2022", "error_bound"}, "value"), 2.819e-4, 1e-6);
@@ -114,8 +114,10 @@ TEST(FigureHemisphere, TheNewApproximationIsBetterForSharpLobes) {
   c["cosines"] = 101;
   const FigureOutput figure = make(c);
   expect_whole(figure);
-  EXPECT_TRUE(claim(figure, "large sharpness").holds) << claim(figure, "large sharpness").figures;
-  EXPECT_TRUE(claim(figure, "even for small").holds) << claim(figure, "even for small").figures;
+  EXPECT_EQ(claim(figure, "large sharpness").finding, Finding::holds)
+      << claim(figure, "large sharpness").figures;
+  EXPECT_EQ(claim(figure, "even for small").finding, Finding::holds)
+      << claim(figure, "even for small").figures;
   // Single precision adds nothing that shows.
   const FigureTable& t = table(figure, "sgl22-3");
   for (size_t i = 0; i + 1 < t.rows.size(); i += 2) {

@@ -51,16 +51,17 @@ Claim small_claim(const std::vector<double>& previous, const std::vector<double>
   size_t below = 0;
   for (size_t i = 0; i < ours.size(); ++i) below += ours[i] < previous[i];
   return {"the error is smaller than the logistic approximation's in most cases, even for small κ",
-          "[SGL22] §3", 2 * below > ours.size(), fmt::format("at {} of {} sharpnesses", below, ours.size())};
+          "[SGL22] §3", finding(2 * below > ours.size()),
+          fmt::format("at {} of {} sharpnesses", below, ours.size())};
 }
 
 Claim large_claim(const std::vector<double>& kappa, const std::vector<double>& previous,
                   const std::vector<double>& ours) {
-  Claim claim{"the error is smaller for large sharpness", "[SGL22] Fig. 3", true,
+  Claim claim{"the error is smaller for large sharpness", "[SGL22] Fig. 3", Finding::holds,
               fmt::format("at all κ >= {}", kLarge)};
   for (size_t i = 0; i < kappa.size(); ++i) {
     if (kappa[i] < kLarge || ours[i] < previous[i]) continue;
-    claim.holds = false;
+    claim.finding = Finding::does_not_hold;
     claim.figures = fmt::format("{:.3g} against {:.3g} at κ = {:.3g}", ours[i], previous[i], kappa[i]);
   }
   return claim;
@@ -90,6 +91,7 @@ FigureOutput hemisphere(const FigureInputs& inputs) {
   std::vector<std::vector<double>> measured;
   for (const Approximation& a : {kLogistic, kGaussian}) {
     SgEvaluator evaluator(inputs.device, {SgFunction::hemisphere, a.kernel});
+    inputs.begin(fmt::format("{} values of {}", rows.size() / 2, a.name));
     if (exact.empty()) exact = evaluator.evaluate(rows).exact;
     const std::vector<float> values = evaluator.values(rows);
     const auto on_device = rmse(exact, cosines, [&](size_t i) { return static_cast<double>(values[i]); });

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "figure/kernel_times.h"
 #include "figure/sgl22.h"
 #include "frame/frame.h"
 #include "measure/statistics.h"
@@ -21,26 +22,44 @@
 namespace vsglbench::sgl22 {
 namespace {
 
-// One frame a kernel, of one size; they share targets and scratch memory.
-std::vector<std::unique_ptr<Frame>> make_frames(Stage& stage, const Json& config, uint32_t width,
-                                                uint32_t height) {
+// One frame a kernel, of one size, by default all kernels; they share targets and scratch memory.
+std::vector<std::unique_ptr<Frame>> make_frames(
+    Stage& stage, const Json& config, uint32_t width, uint32_t height,
+    const std::vector<std::string>& diffuse = exact::diffuse_kernel_names()) {
   const MethodInfo& method = load_method(config["method"], stage.device.info());
   const Json parameters = resolve_parameters(method, config.value("parameters", Json::object()));
   FrameParameters p{.width = width,
                     .height = height,
                     .rsm = config["rsm"],
-                    .lights = config["N"],
+                    .lights = config.value("N", 0u),
                     .visibility = Visibility::none,
                     .importance = Importance::flux};
   std::vector<std::unique_ptr<Frame>> frames;
-  for (const auto& kernel : exact::diffuse_kernel_names()) {
+  for (const auto& kernel : diffuse) {
     p.shading["diffuse"] = kernel;
     frames.push_back(std::make_unique<Frame>(stage, method, parameters, p, nullptr));
     if (frames.back()->light_kind() == LightKind::vsgl) continue;
-    throw fail(ErrorKind::config, "sgl22-4: {} makes no VSGLs; use a method that does, such as two-vsgl",
-               method.name);
+    throw fail(ErrorKind::config, "it makes no VSGLs; use a method that does, such as two-vsgl");
   }
   return frames;
+}
+
+// The image of a frame just rendered. Throws Error(case_failed) for lights or pixels that are not finite.
+Image finite_image(const Frame& frame, const std::string& kernel) {
+  const LightHealth lights = frame.light_health();
+  if (!lights.first_bad_pass.empty()) {
+    throw fail(ErrorKind::case_failed,
+               "its lights are not finite: {} with a NaN, {} with an Inf; the first is light {} of {}",
+               lights.nan, lights.inf, lights.first_bad, lights.first_bad_pass);
+  }
+  Image image = frame.indirect();
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const glm::vec3& p = image.pixels[i];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    throw fail(ErrorKind::case_failed, "its pixels are not finite, shaded by {}; the first is ({}, {})",
+               kernel, i % image.width, i / image.width);
+  }
+  return image;
 }
 
 // What the camera sees, on the host, and its light by quadrature in double precision.
@@ -68,16 +87,20 @@ class ExactPixels {
   std::array<std::vector<glm::vec4>, 5> maps_;
 };
 
-KernelImages small_images(Stage& stage, const Json& config) {
+KernelImages small_images(Stage& stage, const FigureInputs& inputs) {
+  const Json& config = inputs.config;
   const auto least = [&](const char* key) {
     return std::min(config["image"][key].get<uint32_t>(), config[key].get<uint32_t>());
   };
   const uint32_t width = least("width"), height = least("height");
   KernelImages out;
   for (const auto& frame : make_frames(stage, config, width, height)) {
+    const std::string& kernel = exact::diffuse_kernel_names()[out.images.size()];
+    inputs.begin(fmt::format("a frame of {}×{}, {}", width, height, kernel));
     frame->render(0);
-    out.images.push_back(frame->indirect());
+    out.images.push_back(finite_image(*frame, kernel));
     if (!out.mask.empty()) continue;
+    inputs.begin(fmt::format("quadrature of {}×{} pixels", width, height));
     out.mask = frame->surface_mask();
     const ExactPixels exact(*frame);
     out.reference = Image(width, height);
@@ -93,14 +116,15 @@ double median_luminance(const KernelImages& images) {
   for (size_t i = 0; i < images.mask.size(); ++i) {
     if (images.mask[i] != 0) all.push_back(luminance(images.reference.pixels[i]));
   }
-  if (all.empty()) throw fail(ErrorKind::case_failed, "sgl22-4: the camera sees no surface");
+  if (all.empty()) throw fail(ErrorKind::case_failed, "the camera sees no surface");
   return median(all);
 }
 
 // The frame at its full size.
 struct Full {
-  std::vector<std::vector<double>> shade_ms;  // by kernel, one a repetition
-  std::vector<uint64_t> splotches;            // by kernel, pixels
+  uint32_t lights = 0;
+  KernelTimes times;
+  std::vector<uint64_t> splotches;  // by kernel, pixels
 };
 
 double shade_time(const FrameTimes& times) {
@@ -156,44 +180,65 @@ std::vector<uint64_t> count_splotches(const std::vector<std::vector<float>>& lum
   return {counts.begin(), counts.end()};
 }
 
-Full full_frames(Stage& stage, const Json& config, const Splotch& splotch) {
-  const auto frames = make_frames(stage, config, config["width"], config["height"]);
-  Full full;
-  full.shade_ms.resize(kKernels);
+Full full_frames(Stage& stage, const FigureInputs& inputs, const Splotch& splotch) {
+  const Json& config = inputs.config;
+  const uint32_t width = config["width"], height = config["height"];
+  std::vector<std::string> diffuse = exact::diffuse_kernel_names();
+  diffuse.push_back(name(exact::DiffuseKernel::tokuyoshi2022));  // the twin
+  const auto frames = make_frames(stage, config, width, height, diffuse);
   std::vector<std::vector<float>> luminances;
-  for (const auto& frame : frames) {
-    frame->render(0);  // kernels are compiled now
+  for (size_t k = 0; k < frames.size(); ++k) {
+    inputs.begin(fmt::format("a frame of {}×{}, {}", width, height, diffuse[k]));
+    frames[k]->render(0);  // kernels are compiled now
+    if (k == kKernels) continue;
     std::vector<float> one;
-    for (const glm::vec3& pixel : frame->indirect().pixels) one.push_back(luminance(pixel));
+    for (const glm::vec3& pixel : finite_image(*frames[k], diffuse[k]).pixels)
+      one.push_back(luminance(pixel));
     luminances.push_back(std::move(one));
   }
+  inputs.begin(fmt::format("quadrature of doubtful pixels of {}×{}", width, height));
+  Full full{.lights = frames[0]->light_count()};
   full.splotches = count_splotches(luminances, ExactPixels(*frames[0]), splotch);
-  for (int i = 0; i < config["repetitions"].get<int>(); ++i) {
-    for (size_t k = 0; k < kKernels; ++k) full.shade_ms[k].push_back(shade_time(frames[k]->render(0)));
+  // Whoever begins a round takes turns, too.
+  std::vector<std::vector<double>> shade_ms(frames.size());
+  for (size_t i = 0; i < config["repetitions"].get<size_t>(); ++i) {
+    for (size_t turn = 0; turn < frames.size(); ++turn) {
+      const size_t k = (i + turn) % frames.size();
+      inputs.begin(fmt::format("repetition {} of {}×{}, {}", i + 1, width, height, diffuse[k]));
+      shade_ms[k].push_back(shade_time(frames[k]->render(0)));
+    }
   }
+  std::vector<double> twin = std::move(shade_ms.back());
+  shade_ms.pop_back();
+  full.times = KernelTimes(std::move(shade_ms), std::move(twin));
   return full;
 }
 
-std::vector<Claim> claims_of(const Full& full, const std::vector<double>& ms,
-                             const std::vector<double>& smape) {
+// Throws Error(case_failed) where the reference is black: an error relative to it means nothing.
+void require_light(const Image& reference) {
+  if (std::ranges::any_of(reference.pixels, [](const glm::vec3& p) { return luminance(p) > 0; })) return;
+  throw fail(ErrorKind::case_failed, "its lights light nothing that the camera sees");
+}
+
+std::vector<Claim> claims_of(const Full& full, const std::vector<double>& smape) {
   using enum exact::DiffuseKernel;
   const auto at = [](exact::DiffuseKernel kernel) { return static_cast<size_t>(kernel); };
   const size_t hill = at(pettineo_hill), meder = at(meder_bruederlin), ours = at(tokuyoshi2022);
   const std::string place = "[SGL22] Fig. 4";
-  const std::string times = fmt::format(
-      "{:.4g} ms (pettineo-hill), {:.4g} ms (meder-bruederlin), {:.4g} ms "
-      "(tokuyoshi2022)",
-      ms[hill], ms[meder], ms[ours]);
+  const KernelTimes& times = full.times;
   const auto& black = full.splotches;
   return {
-      {"Pettineo and Hill's method can produce black splotches", place, black[hill] > 0,
+      {"Pettineo and Hill's method can produce black splotches", place, finding(black[hill] > 0),
        fmt::format("{} pixels", black[hill])},
-      {"Meder and Brüderlin's method and the new one produce none", place, black[meder] + black[ours] == 0,
-       fmt::format("{} and {} pixels", black[meder], black[ours])},
+      {"Meder and Brüderlin's method and the new one produce none", place,
+       finding(black[meder] + black[ours] == 0), fmt::format("{} and {} pixels", black[meder], black[ours])},
       {"Pettineo and Hill's method is faster than both others", place,
-       ms[hill] < std::min(ms[meder], ms[ours]), times},
-      {"the new method is slightly faster than Meder and Brüderlin's", place, ms[ours] < ms[meder], times},
-      {"the new method is more accurate than Meder and Brüderlin's", place, smape[ours] < smape[meder],
+       both(times.faster(pettineo_hill, meder_bruederlin), times.faster(pettineo_hill, tokuyoshi2022)),
+       times.figures({pettineo_hill, meder_bruederlin, tokuyoshi2022})},
+      {"the new method is slightly faster than Meder and Brüderlin's", place,
+       times.faster(tokuyoshi2022, meder_bruederlin), times.figures({meder_bruederlin, tokuyoshi2022})},
+      {"the new method is more accurate than Meder and Brüderlin's", place,
+       finding(smape[ours] < smape[meder]),
        fmt::format("SMAPE {:.3g} % against {:.3g} %", smape[ours], smape[meder])}};
 }
 
@@ -201,40 +246,46 @@ std::vector<Claim> claims_of(const Full& full, const std::vector<double>& ms,
 
 FigureOutput lights(const FigureInputs& inputs) {
   const Json& c = inputs.config;
+  inputs.begin("the loading of " + c["scene"].get<std::string>());
   const Scene scene = load_scene(c["scene"], {data_root() / "scenes", inputs.assets});
   KernelLibrary kernels(inputs.device);
   Stage stage(inputs.device, kernels, scene);
-  const KernelImages images = small_images(stage, c);
-  const Full full = full_frames(stage, c, splotch_of(c, images));
+  const KernelImages images = small_images(stage, inputs);
+  const Full full = full_frames(stage, inputs, splotch_of(c, images));
+  require_light(images.reference);
 
   FigureOutput out;
   FigureTable table{"sgl22-4",
                     {"kernel", "origin", "width", "height", "shade_ms_median", "shade_ms_q1", "shade_ms_q3",
-                     "repetitions", "black_pixels", "smape_percent"},
+                     "shade_ms_lo95", "shade_ms_hi95", "repetitions", "black_pixels", "image_width",
+                     "image_height", "smape_percent"},
                     {}};
+  const Image& reference = images.reference;
+  const std::string title = fmt::format("{}, {} VSGLs", scene.name, full.lights);
   const std::string size = fmt::format("{}×{}", c["width"].get<int>(), c["height"].get<int>());
+  const std::string small = fmt::format("{}×{}", reference.width, reference.height);
   Plot plot{
-      .title = fmt::format("{}, {} VSGLs: time and error of the diffuse kernels", scene.name, c["N"].dump()),
-      .x = {"SMAPE against quadrature / %", true},
+      .title = title + ": time and error of the diffuse kernels",
+      .x = {fmt::format("SMAPE against quadrature at {} / %", small), true},
       .y = {fmt::format("shade pass at {} / ms", size), false, true},
       .notes = {fmt::format("{}; medians of {} interleaved repetitions. Both lobes, diffuse and specular.",
                             inputs.device.info().name, c["repetitions"].dump())}};
-  std::vector<double> ms, smape;
+  std::vector<double> smape;
   for (size_t k = 0; k < kKernels; ++k) {
-    const Summary times = summarize(full.shade_ms[k]);
-    ms.push_back(times.median);
-    smape.push_back(measure_errors(images.images[k], images.reference, images.mask).smape);
+    const Summary times = summarize(full.times.of(static_cast<exact::DiffuseKernel>(k)));
+    smape.push_back(measure_errors(images.images[k], reference, images.mask).smape);
     const std::string kernel = exact::diffuse_kernel_names()[k];
+    // Times and black pixels are of width × height, the SMAPE is of image_width × image_height.
     table.add(kernel, std::string("measured"), c["width"].get<double>(), c["height"].get<double>(),
-              times.median, times.q1, times.q3, static_cast<double>(times.samples.size()),
-              static_cast<double>(full.splotches[k]), smape[k]);
-    plot.curves.push_back({kernel, {{smape[k], times.median}}, CurveStyle::points});
+              times.median, times.q1, times.q3, times.ci95.lo, times.ci95.hi,
+              static_cast<double>(times.samples.size()), static_cast<double>(full.splotches[k]),
+              static_cast<double>(reference.width), static_cast<double>(reference.height), smape[k]);
+    if (smape[k] > 0) plot.curves.push_back({kernel, {{smape[k], times.median}}, CurveStyle::points});
   }
   out.tables = {table};
   out.plots = {{"sgl22-4", plot}};
-  out.images = {{"sgl22-4", picture(images, fmt::format("{}, {} VSGLs", scene.name, c["N"].dump()),
-                                    "diffuse integral by quadrature")}};
-  out.claims = claims_of(full, ms, smape);
+  out.images = {{"sgl22-4", picture(images, title, "diffuse integral by quadrature")}};
+  out.claims = claims_of(full, smape);
   return out;
 }
 

@@ -81,7 +81,7 @@ std::vector<Claim> claims_of(const std::vector<double>& smape) {
   return {
       {"at grazing angles the method's SMAPE is smaller than those of Pettineo and Hill, and of Meder and "
        "Brüderlin",
-       "[SGL22] Fig. 1", ours < std::min(hill, meder),
+       "[SGL22] Fig. 1", finding(ours < std::min(hill, meder)),
        fmt::format("SMAPE {:.3g} % against {:.3g} % and {:.3g} %", ours, hill, meder)}};
 }
 
@@ -106,6 +106,7 @@ FigureOutput wall(const FigureInputs& inputs) {
   for (size_t k = 0; k < kKernels; ++k) {
     const auto kernel = static_cast<exact::DiffuseKernel>(k);
     SgEvaluator evaluator(inputs.device, {SgFunction::clamped_cosine, kernel});
+    inputs.begin(fmt::format("the wall of {}×{} pixels, {}", wall.width, wall.height, name(kernel)));
     // The quadrature is the same for all.
     if (k == 0) {
       exact_pixels = evaluator.evaluate(rows).exact;
