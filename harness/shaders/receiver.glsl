@@ -8,7 +8,8 @@
 #include "types.h"
 
 // The receiver's specular lobe as an anisotropic SG [MFIS16 App. C.2; Xu et al. 2013]:
-// C(ω) max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²), x in the plane of incidence, z the mirror direction.
+// C(ω) max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²), x in the plane of incidence, z the mirror direction. Turning ω by δ turns
+// the half vector by δ/2 in that plane and by δ/(2 n·v) across it, so ηx = λh/8 and ηy = λh/(8 (n·v)²).
 struct Receiver {
   Surface surface;
   vec3 x, y, z;
@@ -26,8 +27,8 @@ Receiver make_receiver(Surface s) {
   r.y = dot(perpendicular, perpendicular) > 1e-10 ? normalize(perpendicular) : normalize(cross(s.normal, any));
   r.x = cross(r.y, r.z);
   float sharpness = ndf_sharpness(s.ndf);
-  r.eta_x = sharpness / (8.0 * r.nv * r.nv);
-  r.eta_y = sharpness / 8.0;
+  r.eta_x = sharpness / 8.0;
+  r.eta_y = sharpness / (8.0 * r.nv * r.nv);
   r.alpha = masking_alpha(s.ndf);
   r.peak = ndf_peak(s.ndf);
   return r;

@@ -58,8 +58,8 @@ struct Lobe {
     z = reflect(s.view, s.normal);
     y = unit_or(glm::cross(s.normal, s.view), glm::normalize(glm::cross(s.normal, any)));
     x = glm::cross(y, z);
-    eta_x = ndf_sharpness(s.ndf) / (8 * square(nv));
-    eta_y = ndf_sharpness(s.ndf) / 8;
+    eta_x = ndf_sharpness(s.ndf) / 8;
+    eta_y = ndf_sharpness(s.ndf) / (8 * square(nv));
   }
   double nv;
   dvec3 x, y, z;
@@ -263,8 +263,7 @@ double cancelling_alpha(const Surface& s, const gpu::Vsgl& light, const VsglShad
     return power == glm::vec3(0) ? 0.0 : static_cast<double>(value);
   };
   const double receiver = is_glossy ? 2 * std::max(lobe.eta_x, lobe.eta_y) : 0;
-  const double emitter = std::max(sharpness(light.diffuse, light.diffuse_sharpness),
-                                  sharpness(light.specular, light.specular_sharpness));
+  const double emitter = sharpness(light.specular, light.specular_sharpness);
   return (receiver + emitter) * Sight(s, light, shading.disk).solid_angle() / (4 * pi);
 }
 

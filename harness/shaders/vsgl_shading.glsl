@@ -64,15 +64,14 @@ vec3 shade_vsgl(Receiver r, Vsgl light) {
 
 // Consistent bias reduction [VSGL14 §3.3]: whether ρ is smooth against the disk that the light is seen as, and may be
 // pulled out of the integral: η_p < α·4π/|Ω|. η_p is the sharpness of the sharpest product of two lobes; an ASG of
-// bandwidth η has sharpness 2η, a diffuse receiver 0.
+// bandwidth η has sharpness 2η, a diffuse lobe of either end 0, so that a diffuse pair always cancels.
 bool is_cancelled(Receiver r, Vsgl light, float alpha) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
   float radius2 = 2.0 * shading_variance(light, distance2);
   vec3 f0 = r.surface.f0;
   float receiver = max(f0.r, max(f0.g, f0.b)) > 0.0 ? 2.0 * max(r.eta_x, r.eta_y) : 0.0;
-  float emitter = max(luminance(light.specular) > 0.0 ? light.specular_sharpness : 0.0,
-                      luminance(light.diffuse) > 0.0 ? light.diffuse_sharpness : 0.0);
+  float emitter = luminance(light.specular) > 0.0 ? light.specular_sharpness : 0.0;
   return (receiver + emitter) * solid_angle_over_area(sqrt(distance2), radius2) * radius2 < 4.0 * alpha;
 }
 
