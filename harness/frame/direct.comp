@@ -26,8 +26,9 @@ void main() {
   vec4 lit = texelFetch(rsm_position_map, seen, 0);
   vec3 to_light = lamp.perspective != 0u ? -d * inversesqrt(dot(d, d)) : -lamp.forward;
   float irradiance_scale = lamp.perspective != 0u ? 1.0 / dot(d, d) : 1.0;
-  // Within two texels' depth of what the light sees there.
+  // Within 1 % and two texels of what the light sees there.
   float depth = dot(lit.xyz - lamp.position, lamp.forward);
-  if (lit.w > 0.0 && z > depth * 1.01 + 0.01) return;
+  float texel = 2.0 * along * max(lamp.extent.x / float(lamp.width), lamp.extent.y / float(lamp.height));
+  if (lit.w > 0.0 && z > depth * 1.01 + 2.0 * texel) return;
   direct[pixel] = vec4(lamp.power * irradiance_scale * brdf_cosine(t.surface, to_light), 1.0);
 }

@@ -301,6 +301,10 @@ void Frame::generate(Recorder& r, Method& method, const Field& f, const LightTar
   generate_dispatches_ += r.dispatches() - before;
 }
 
+bool Frame::clears_sigma() const {
+  return chosen(parameters_.shading, "light_clearance") == "sigma";
+}
+
 bool Frame::needs_light_texels() const {
   if (method_->kind() != LightKind::vsgl) return false;
   return parameters_.bias_reduction > 0 || shading_defines(parameters_.shading).contains("LOBE_FILTER");
@@ -348,7 +352,8 @@ void Frame::shade(Recorder& r, uint32_t seed, uint32_t iteration) {
   std::vector<const Buffer*> bits;  // one of each range
   if (has_shadow_maps(parameters_.visibility)) {
     const auto maps = stage_.shadow_maps(parameters_.visibility, parameters_.ism)
-                          .build(r, lights, method_->kind(), light_count_, *gbuffer_);
+                          .build(r, lights, method_->kind(), light_count_, *gbuffer_, clears_sigma());
+    push.map_tolerance = maps.tolerance;
     bound.push_back(*maps.depth);
     bound.push_back(*maps.frames);
   } else if (parameters_.visibility == Visibility::exact) {

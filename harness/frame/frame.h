@@ -59,7 +59,9 @@ struct FrameTimes {
 // Push constants of shade.comp, which says what they mean.
 struct ShadePush {
   gpu::Emitter emitter;
-  uint32_t first = 0, count = 0, words = 0, accumulate = 0, map_size = 0, random = 0;
+  uint32_t first = 0, count = 0, words = 0, accumulate = 0, map_size = 0;
+  float map_tolerance = 0;
+  uint32_t random = 0;
   float radius2_scale = 1, weight = 1, alpha = 0;
 };
 
@@ -151,6 +153,8 @@ class Frame {
   void generate_importance_lights(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift);
   void generate_lights(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift);
   void generate(Recorder& recorder, Method& method, const Field& field, const LightTarget& target);
+  // Whether what is nearer to a VSGL's mean than its standard deviation is no occluder.
+  bool clears_sigma() const;
   // Bias reduction and unfiltered lobes need a texel for each light.
   bool needs_light_texels() const;
   const Buffer& light_texels(Recorder& recorder);

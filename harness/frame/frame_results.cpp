@@ -60,7 +60,8 @@ std::vector<glm::vec4> download_map(const DeviceImage& image) {
 
 std::vector<LightPoint> Frame::light_points() const {
   std::vector<LightPoint> points;
-  for (const auto& light : vsgls()) points.push_back({light.mean, std::sqrt(light.variance)});
+  for (const auto& light : vsgls())
+    points.push_back({light.mean, clears_sigma() ? std::sqrt(light.variance) : 0});
   for (const auto& light : vpls()) points.push_back({light.position, 0});
   return points;
 }

@@ -3,13 +3,12 @@
 // directions and its map covers them all, that of a VPL the hemisphere above it. Depth is the distance in
 // metres as float bits, which order as unsigned integers. The including file declares `uint maps[]`, `vec4
 // frames[]` (position, nothing nearer than w is an occluder; axis, w = 1 for all directions, 0 for the
-// hemisphere: two for each light) and `uint map_size`.
+// hemisphere: two for each light) and `uint map_size`; one that reads maps, `float map_tolerance` in metres, too.
 
 const uint kIsmEmpty = 0x7F800000u;  // +infinity
 const float kIsmReach = 1.0;         // texels, from a point to about the farthest of its texel
 const float kIsmMostSlope = 10.0;    // farthest depth of a texel and that of its point, at most
 const float kIsmTolerance = 1.03;    // of a receiver's distance and the map's
-const float kIsmLeast = 0.01;        // m, the same
 
 // Coordinates about `axis`, which is z (Duff et al. 2017).
 vec3 ism_local(vec3 axis, vec3 direction) {
@@ -58,6 +57,6 @@ float ism_visible(uint k, vec3 origin, vec3 axis, vec3 position) {
     return distance > 0.0 ? 0.0 : 1.0;
   }
   float nearest = uintBitsToFloat(maps[(k * map_size + texel.y) * map_size + texel.x]);
-  return distance <= nearest * kIsmTolerance + kIsmLeast ? 1.0 : 0.0;
+  return distance <= nearest * kIsmTolerance + map_tolerance ? 1.0 : 0.0;
 }
 #endif

@@ -26,7 +26,7 @@ void main() {
   vec3 d = uintBitsToFloat(point.xyz) - origin.xyz;
   float distance = length(d);
   uvec2 texel;
-  if (distance <= max(origin.w, 1e-4)) return;
+  if (distance <= origin.w) return;
   if (!ism_texel(axis, d / distance, map_size, texel)) return;
   float depth = ism_depth(distance, d / distance, octahedral(point.w), axis, map_size);
   atomicMin(maps[(k * map_size + texel.y) * map_size + texel.x], floatBitsToUint(depth));

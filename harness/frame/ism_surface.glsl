@@ -45,7 +45,7 @@ vec3 point_in(vec3 a, vec3 b, vec3 c, vec2 u) {
 // A point at `d` from the light on a surface with this normal, of any length.
 void splat(uint k, vec3 d, vec3 normal) {
   float distance = length(d);
-  if (distance <= max(frames[2u * k].w, 1e-4)) return;
+  if (distance <= frames[2u * k].w) return;
   vec3 w = d / distance;
   vec4 axis = frames[2u * k + 1u];
   uvec2 texel;

@@ -20,6 +20,7 @@ layout(push_constant, scalar) uniform Push {
   uint words;            // of visibility bits per light
   uint accumulate;       // 1: add to what is there
   uint map_size;         // of a shadow map
+  float map_tolerance;   // of its depths, metres
   uint random;           // a word of this seed
   float radius2_scale;   // of the square of every light's radius [VSGL14 §5]
   float weight;          // of what is added

@@ -29,12 +29,29 @@ const std::vector<ShadingAxis>& shading_axes() {
        "VARIANCE",
        {"3d", "disk"},
        "a light's variance: the paper's of three dimensions [MFIS16 App. B.2], or half of it, a disk's"},
+      {"receiver",
+       "RECEIVER_LOBE",
+       {"asg", "sg"},
+       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], or its NDF widened by the light's SG"},
+      {"lambert_sharpness",
+       "LAMBERT_LOBE",
+       {"2", "2.2925"},
+       "sharpness of a texel's diffuse lobe: [VSGL15s App. A.1]'s, or that of the author's later code"},
+      {"light_clearance",
+       "LIGHT_CLEARANCE",
+       {"0", "sigma"},
+       "how far from a light's mean nothing counts as an occluder: the papers' test at the mean, or its σ"},
   };
   return axes;
 }
 
 bool is_shading_key(const std::string& key) {
   return std::ranges::any_of(shading_axes(), [&](const ShadingAxis& axis) { return axis.key == key; });
+}
+
+std::string chosen(const Shading& shading, const std::string& key) {
+  if (const auto it = shading.find(key); it != shading.end()) return it->second;
+  return std::ranges::find(shading_axes(), key, &ShadingAxis::key)->choices.front();
 }
 
 void check_shading_choice(const std::string& key, const std::string& choice) {

@@ -21,6 +21,7 @@ bool is_shading_key(const std::string& key);
 
 // Choice by key; a key that is absent has its default.
 using Shading = std::map<std::string, std::string>;
+std::string chosen(const Shading& shading, const std::string& key);
 
 // Throws Error(config) naming the nearest choice.
 void check_shading_choice(const std::string& key, const std::string& choice);

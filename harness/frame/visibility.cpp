@@ -68,6 +68,7 @@ std::vector<SurfacePoint> surface_points(const Scene& scene, uint32_t count) {
 
 constexpr uint32_t kPool = 1u << 20;  // points of ism, from which each map takes its share
 constexpr uint32_t kCoarsest = 4;     // holes are filled down to 4×4: a wider one is open space
+constexpr float kTolerance = 3e-4f;   // of depths, as a share of the scene's diagonal
 constexpr size_t kFrameBytes = 2 * sizeof(glm::vec4);
 
 std::filesystem::path shader(const char* file) { return data_root() / "harness" / "frame" / file; }
@@ -76,7 +77,11 @@ std::filesystem::path shader(const char* file) { return data_root() / "harness" 
 
 ImperfectShadowMaps::ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene,
                                          Visibility technique, IsmParameters parameters)
-    : kernels_(kernels), scratch_(scratch), technique_(technique), parameters_(parameters) {
+    : kernels_(kernels),
+      scratch_(scratch),
+      technique_(technique),
+      parameters_(parameters),
+      tolerance_(kTolerance * scene.diagonal()) {
   if (technique_ == Visibility::ism) {
     const auto points = surface_points(scene, kPool);
     points_ = Buffer(kernels.device(), "ism points", points.size() * sizeof(SurfacePoint));
@@ -106,19 +111,25 @@ std::string ImperfectShadowMaps::pass_name(const char* step) const {
 }
 
 ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const Buffer& lights, LightKind kind,
-                                                     uint32_t count, const DeferredTargets& seen) {
+                                                     uint32_t count, const DeferredTargets& seen,
+                                                     bool clears_sigma) {
   Buffer& frames = scratch_.get("ism frames", count * kFrameBytes);
   Buffer& maps = level(parameters_.size, count);
   const Kernel& make_frames =
-      kernels_.get(shader("ism_frames.comp"), {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"}});
+      kernels_.get(shader("ism_frames.comp"), {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"},
+                                               {"LIGHT_CLEARANCE", clears_sigma ? "1" : "0"}});
+  const struct {
+    uint32_t count;
+    float least;
+  } push{count, 0.1f * tolerance_};
   recorder.pass(pass_name("splat"), [&] {
     recorder.fill(maps, 0x7F800000u);
-    recorder.dispatch(make_frames, {lights, frames}, count, groups_for(count, 64));
+    recorder.dispatch(make_frames, {lights, frames}, push, groups_for(count, 64));
     recorder.barrier();
     splat(recorder, frames, maps, count, seen);
   });
   fill_holes(recorder, count);
-  return {&maps, &frames, parameters_.size};
+  return {&maps, &frames, parameters_.size, tolerance_};
 }
 
 void ImperfectShadowMaps::splat(Recorder& recorder, const Buffer& frames, const Buffer& maps, uint32_t count,

@@ -24,8 +24,9 @@ Visibility parse_visibility(const std::string& name);  // throws Error(config)
 std::string visibility_name(Visibility v);
 inline bool has_shadow_maps(Visibility v) { return v >= Visibility::ism; }
 
-// Where a shadow ray ends: `stop_short` metres before `position`. For a VSGL that is its mean, one standard
-// deviation before it, since the mean of a curved cluster lies inside the solid.
+// Where a shadow ray ends: `stop_short` metres before `position`. For a VSGL that is its mean μ, where both papers
+// test it ([VSGL14], [MFIS16]: one test a light); with `light_clearance` sigma one standard deviation before it, since the
+// mean of a curved cluster lies inside the solid.
 struct LightPoint {
   glm::vec3 position{0};
   float stop_short = 0;
@@ -54,10 +55,12 @@ class ImperfectShadowMaps {
   struct Maps {
     const Buffer *depth, *frames;
     uint32_t size;
+    float tolerance;  // metres, by which a receiver may be farther away than the map's depth
   };
-  // `seen`: what the camera sees, for techniques that adapt to it.
+  // `seen`: what the camera sees, for techniques that adapt to it. `clears_sigma`: what is nearer to a VSGL's mean than
+  // its standard deviation is no occluder.
   Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count,
-             const DeferredTargets& seen);
+             const DeferredTargets& seen, bool clears_sigma = false);
   // Of all buffers for `count` lights, beside the scene as the rasteriser has it: what points are made from
   // (for aism and tism with a copy of positions and triangles), maps with their pyramids, and frames.
   size_t memory_bytes(uint32_t count) const;
@@ -73,6 +76,7 @@ class ImperfectShadowMaps {
   ScratchPool& scratch_;
   Visibility technique_;
   IsmParameters parameters_;
+  float tolerance_;             // metres
   Buffer points_;               // ism
   SurfaceClustersGpu surface_;  // aism, tism
 };

@@ -223,6 +223,33 @@ TEST(Shrinking, LeavesAShortRowThatFailsStill) {
             "clamped_cosine");
 }
 
+// Rows of four arguments to sg_pixel_test.comp; three results a row.
+std::vector<float> shade_rows(const Kernel& pixel, const std::vector<float>& rows) {
+  const auto count = static_cast<uint32_t>(rows.size() / 4);
+  Buffer in(device(), "arguments", rows.size() * sizeof(float)), out(device(), "values", count * 3 * sizeof(float));
+  in.upload(std::span<const float>(rows));
+  Recorder recorder(device());
+  recorder.begin();
+  recorder.pass("pixel", [&] { recorder.dispatch(pixel, {in, out}, count, 1); });
+  recorder.submit_and_wait();
+  return out.download<float>(3 * count);
+}
+
+// A texel by itself comes back with the sharpness it had: Banerjee's formula gives it from the mean length that the
+// kernel made of it.
+TEST(Pixels, ALoneTexelKeepsItsSharpness) {
+  std::vector<float> rows;
+  for (const float sharpness : {1e-3f, 0.1f, 0.5f, 0.99f, 1.0f, 2.0f, 2.2925f, 10.0f, 1e3f, 1e6f, 0x1p41f})
+    rows.insert(rows.end(), {0.5f, sharpness, 1, 0.5f});
+  KernelLibrary kernels(device());
+  const auto values = shade_rows(kernels.get(beside("sg_pixel_test.comp"), {{"LOBE_CONVERSION", "1"}}), rows);
+  for (size_t i = 0; i < rows.size() / 4; ++i) {
+    const double sharpness = rows[4 * i + 1], back = exact::banerjee_sharpness(values[3 * i + 2]);
+    EXPECT_LT(std::abs(back - sharpness), 1e-6 * (1 + sharpness)) << sharpness;
+    if (sharpness == 2.2925f) EXPECT_NEAR(1 - values[3 * i + 2], 0.5749, 5e-5);  // of the author's later code
+  }
+}
+
 // DIFFUSE_KERNEL, LOBE_CONVERSION and VARIANCE as the pixel sees them [MFIS16 App. B, C].
 TEST(Pixels, FollowTheirSwitches) {
   const float cosine = 0.3f, distance = 2, variance = 0.5f, complement = 0.25f;
@@ -234,14 +261,8 @@ TEST(Pixels, FollowTheirSwitches) {
                                           {{"DIFFUSE_KERNEL", std::to_string(static_cast<int>(kernel))},
                                            {"LOBE_CONVERSION", std::to_string(banerjee)},
                                            {"VARIANCE", std::to_string(disk)}});
-        Buffer in(device(), "arguments", 32), out(device(), "values", 16);
-        in.upload(std::span<const float>(
-            std::vector<float>{cosine, distance, variance, complement, cosine, 1000, 1e-20f, complement}));
-        Recorder recorder(device());
-        recorder.begin();
-        recorder.pass("pixel", [&] { recorder.dispatch(pixel, {in, out}, uint32_t{2}, 1); });
-        recorder.submit_and_wait();
-        const auto values = out.download<float>(4);
+        const auto values = shade_rows(
+            pixel, {cosine, distance, variance, complement, cosine, 1000, 1e-20f, complement});
         const double lobe =
             banerjee ? exact::banerjee_sharpness(complement) : exact::toksvig_sharpness(complement);
         EXPECT_NEAR(values[1], lobe, 1e-5);
@@ -255,7 +276,7 @@ TEST(Pixels, FollowTheirSwitches) {
         // A point far away: its intensity cos θ/d², but for what the kernel misses at κ → ∞.
         const double point = 1 / exact::sg_integral(lobe) / std::numbers::pi * cosine / 1e6;
         const double missed = exact::diffuse_kernel(kernel, cosine, 0x1p41) / cosine;
-        EXPECT_NEAR(values[2] / point, missed, 1e-3) << name(kernel) << " " << banerjee << disk;
+        EXPECT_NEAR(values[3] / point, missed, 1e-3) << name(kernel) << " " << banerjee << disk;
       }
     }
   }

@@ -1,7 +1,7 @@
 #version 460
 // Tests only: a light made from moments, shaded at a diffuse surface. A row: cosine of the light's direction at
 // the surface, the light's distance and variance, 1-r of its diffuse lobe, which points at the surface. Results:
-// red of the reflected radiance, and the lobe's sharpness.
+// red of the reflected radiance, the lobe's sharpness, and 1-r of a texel's lobe whose sharpness is the second argument.
 layout(local_size_x = 64) in;
 
 #include "moments.glsl"
@@ -27,6 +27,7 @@ void main() {
   s.f0 = vec3(0.0);
   s.ndf = 0.5;
   Vsgl light = make_vsgl(m, 1.0, 0.0);
-  values[2 * row] = shade_vsgl(make_receiver(s), light).r;
-  values[2 * row + 1] = light.diffuse_sharpness;
+  values[3 * row] = shade_vsgl(make_receiver(s), light).r;
+  values[3 * row + 1] = light.diffuse_sharpness;
+  values[3 * row + 2] = lobe_complement(arguments[4 * row + 1]);
 }

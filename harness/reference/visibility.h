@@ -18,8 +18,7 @@ struct ReceiverPoint {
 
 struct TargetPoint {
   glm::vec3 position{0};
-  // The ray ends this far (metres) before the target: the mean of a curved cluster lies inside the
-  // solid, so a cluster passes its standard deviation here, a single texel 0.
+  // The ray ends this far (metres) before the target, at least 0.
   float stop_short = 0;
 };
 

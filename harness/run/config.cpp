@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
+#include "run/preset.h"
 #include "run/scene_pdfs.h"
 
 namespace fs = std::filesystem;
@@ -71,16 +72,15 @@ void check_scenes(const JsonDocument& doc, const std::vector<std::string>& scene
   }
 }
 
-FrameParameters base_parameters(const Json& root) {
+// From the config, else from its preset, else the default.
+FrameParameters base_parameters(const Json& root, const Json& preset) {
   FrameParameters base;
-  if (root.contains("frame")) {
-    base.width = root["frame"]["width"];
-    base.height = root["frame"]["height"];
-  }
-  if (root.contains("ism")) {
-    base.ism.size = root["ism"].value("size", base.ism.size);
-    base.ism.points = root["ism"].value("points", base.ism.points);
-  }
+  const Json own = root.value("frame", Json::object()), given = preset.value("frame", Json::object());
+  base.width = own.value("width", given.value("width", base.width));
+  base.height = own.value("height", given.value("height", base.height));
+  const Json maps = root.value("ism", Json::object()), given_maps = preset.value("ism", Json::object());
+  base.ism.size = maps.value("size", given_maps.value("size", base.ism.size));
+  base.ism.points = maps.value("points", given_maps.value("points", base.ism.points));
   return base;
 }
 
@@ -123,7 +123,8 @@ Measure read_measure(const JsonDocument& doc) {
   return Measure::generation;
 }
 
-Json resolved_settings(const Config& config, const FrameParameters& base, const Json& root) {
+Json resolved_settings(const Config& config, const FrameParameters& base, const Json& root,
+                       const Json& preset) {
   const bool generation = config.measure == Measure::generation;
   Json out = {{"name", config.name},
               {"description", config.description},
@@ -131,10 +132,11 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
               {"scenes", config.scenes},
               {"methods", root.at("methods")},
               {"frame", {{"width", base.width}, {"height", base.height}}}};
+  if (root.contains("preset")) out["preset"] = root.at("preset");
   for (const auto& [key, value] : case_defaults().items()) {
     const bool shades = key == "visibility" || key == "importance" || key == "progressive" ||
                         key == "bias_reduction" || is_shading_key(key);
-    if (!shades || !generation) out[key] = root.value(key, value);
+    if (!shades || !generation) out[key] = root.value(key, preset.value(key, value));
   }
   if (!generation) {
     out["ism"] = {{"size", base.ism.size}, {"points", base.ism.points}};
@@ -188,9 +190,10 @@ Config load_config(const fs::path& path) {
   check_scenes(doc, config.scenes);
   read_timing(doc, &config);
   read_reference(doc, &config);
-  const FrameParameters base = base_parameters(root);
+  const Json preset = preset_of(doc, root, "");
+  const FrameParameters base = base_parameters(root, preset);
   config.cases = expand_cases(doc, base);
-  config.resolved = resolved_settings(config, base, root);
+  config.resolved = resolved_settings(config, base, root, preset);
   return config;
 }
 

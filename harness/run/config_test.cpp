@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "run/preset.h"
 #include "run/run_fixture.h"
 #include "run/scene_images.h"
 
@@ -277,6 +278,74 @@ TEST_F(ConfigTest, ShadingIsSweptWhereLightsAreVsgls) {
             (ShaderDefines{{"DIFFUSE_KERNEL", "3"}, {"VARIANCE", "1"}}));
   EXPECT_EQ(config.cases[3].id, "cornell/all-texels/rsm=16,vis=exact,shading=exact");
   EXPECT_EQ(config.cases[5].id, "cornell/all-texels/rsm=16,vis=exact,shading=vsgl16,diffuse=tokuyoshi2022");
+}
+
+// The entry's key, its preset, the config's key, the config's preset, the default: the first that is there.
+TEST_F(ConfigTest, APresetFillsWhatNothingElseSays) {
+  config_["preset"] = "papers/mfis16";
+  config_.erase("frame");
+  config_["rsm"] = 32;
+  config_["methods"] = {{{"method", "fis"}, {"preset", "papers/vsgl14"}, {"N", 8}},
+                        {{"method", "mfis"}},
+                        {{"method", "all-texels"}},
+                        {{"method", "mfis"}, {"preset", "author2024"}}};
+  const Config config = load();
+  ASSERT_EQ(config.cases.size(), 4u);
+  const auto is = [&](size_t i, const char* key, const Json& value) {
+    EXPECT_EQ(config.cases[i].parameters.at(key), value) << i << " " << key;
+  };
+  is(0, "width", 1920);  // of the config's preset
+  is(0, "rsm", 256);     // of the entry's
+  is(0, "N", 8);
+  is(0, "K", 4.0);
+  is(0, "visibility", "aism");
+  is(0, "shading", "vsgl14");
+  EXPECT_TRUE(config.cases[0].id.starts_with("cornell/fis/preset=papers-vsgl14,N=8")) << config.cases[0].id;
+  is(1, "rsm", 32);  // of the config
+  is(1, "K", 1.0);
+  is(1, "light_clearance", "0");
+  is(2, "shading", "exact");  // the method's own parameter
+  is(3, "lambert_sharpness", "2.2925");
+  is(3, "receiver", "sg");
+  is(3, "visibility", config_.contains("visibility") ? config_["visibility"] : Json("tism"));
+  EXPECT_EQ(config.resolved.at("preset"), "papers/mfis16");
+}
+
+TEST_F(ConfigTest, PresetsAreAllSound) {
+  ASSERT_GE(preset_names().size(), 3u);
+  for (const auto& name : preset_names()) {
+    config_["preset"] = name;
+    config_["methods"] = {{{"method", "fis"}}, {{"method", "vpl"}}};
+    const Json keys = load_preset(name);
+    for (const auto& [key, value] : keys.items()) {
+      const bool known = key == "frame" || key == "ism" || key == "K" || case_defaults().contains(key);
+      EXPECT_TRUE(known) << name << " " << key;
+    }
+    EXPECT_EQ(load().cases.size(), 2u) << name;
+  }
+}
+
+TEST_F(ConfigTest, AMissingPresetAndADiskOfTheFirstModelAreRefused) {
+  config_["preset"] = "papers/mfis15";
+  EXPECT_TRUE(contains(problem(), "no preset 'papers/mfis15'; did you mean 'papers/mfis16'?")) << problem();
+  config_["preset"] = 3;
+  EXPECT_TRUE(contains(problem(), "preset"));
+  config_.erase("preset");
+  config_["methods"] = {{{"method", "mfis"}, {"shading", {"vsgl16", "vsgl14"}}, {"variance", "disk"}}};
+  EXPECT_TRUE(contains(problem(), "shading vsgl14 with variance disk")) << problem();
+}
+
+// A level is the same whether it is written as a number or as text.
+TEST_F(ConfigTest, LevelsAreNumbersOrNames) {
+  config_["methods"] = {{{"method", "mfis"}, {"lambert_sharpness", {2, 2.2925}}, {"light_clearance", {0, "sigma"}}}};
+  const Config config = load();
+  ASSERT_EQ(config.cases.size(), 4u);
+  EXPECT_EQ(config.cases[3].frame.shading.at("lambert_sharpness"), "2.2925");
+  EXPECT_EQ(config.cases[3].frame.shading.at("light_clearance"), "sigma");
+  EXPECT_EQ(shading_defines(config.cases[3].frame.shading),
+            (ShaderDefines{{"LAMBERT_LOBE", "1"}, {"LIGHT_CLEARANCE", "1"}}));
+  config_["methods"] = {{{"method", "mfis"}, {"lambert_sharpness", 2.5}}};
+  EXPECT_TRUE(contains(problem(), "no lambert_sharpness '2.5'"));
 }
 
 TEST_F(ConfigTest, ShadingThatIsNotReadOrUnknownIsRefused) {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "method/registry.h"
+#include "run/preset.h"
 
 namespace vsglbench {
 namespace {
@@ -40,7 +41,8 @@ bool always_named(const std::string& key) { return key == "N" || key == "rsm" ||
 
 // "vis=exact": short, since it becomes part of a file's name.
 std::string name_of(const std::string& key, const Json& value) {
-  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::ranges::replace(text, '/', '-');  // that of "papers/mfis16"
   return fmt::format("{}={}", key == "visibility" ? "vis" : key, text);
 }
 
@@ -62,6 +64,8 @@ class Entry {
         json_(doc.root().at("methods").at(index)),
         at_(fmt::format("/methods/{}", index)),
         sees_(doc.root().value("measure", "frame") == "frame"),
+        preset_(preset_of(doc, json_, at_)),
+        root_preset_(preset_of(doc, doc.root(), "")),
         method_(find()) {
     check_keys();
     add_axes();
@@ -129,7 +133,7 @@ class Entry {
 
   void check_keys() const {
     std::vector<std::string> known = case_keys();
-    known.push_back("method");
+    known.insert(known.end(), {"method", "preset"});
     for (const auto& parameter : method_.parameters) known.push_back(parameter.name);
     for (const auto& [key, value] : json_.items()) {
       const std::string at = at_ + "/" + pointer_token(key);
@@ -165,21 +169,33 @@ class Entry {
     for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
     if (usable()) return;
     for (const auto& [key, value] : json_.items()) {
-      if (key != "method" && !case_defaults().contains(key)) add_axis(key, false);
+      if (key != "method" && key != "preset" && !case_defaults().contains(key)) add_axis(key, false);
     }
   }
 
-  // From the entry, else from the config's own lists, else the default.
+  // From the entry, its preset, the config's own lists, their preset, or the default: the first that has the key. A
+  // method's own parameter has no list in the config, its default in the method, and of a preset only a name that is not
+  // a key of every case: `shading` of all-texels stays exact.
   void add_axis(const std::string& key, bool of_every_case) {
     const Json& root = doc_.root();
+    const bool given = of_every_case || !case_defaults().contains(key);  // by presets
     Axis axis{key, "", {}, always_named(key)};
     const Json* value = nullptr;
     if (json_.contains(key)) {
       value = &json_.at(key);
       axis.at = at_ + "/" + pointer_token(key);
       axis.named = true;
+    } else if (given && preset_.contains(key)) {
+      value = &preset_.at(key);
+      axis.at = at_ + "/preset";
+    } else if (of_every_case && root.contains(key)) {
+      value = &root.at(key);
+      axis.at = "/" + key;
+    } else if (given && root_preset_.contains(key)) {
+      value = &root_preset_.at(key);
+      axis.at = "/preset";
     } else if (of_every_case) {
-      value = root.contains(key) ? &root.at(key) : &case_defaults().at(key);
+      value = &case_defaults().at(key);
       axis.at = "/" + key;
     } else {
       return;
@@ -196,7 +212,7 @@ class Entry {
     c.method = method_.name;
     c.frame = base;
     if (!sees_) c.frame.visibility = Visibility::none;
-    std::string names;
+    std::string names = json_.contains("preset") ? name_of("preset", json_.at("preset")) : "";
     Json own = Json::object();
     for (size_t i = 0; i < axes_.size(); ++i) {
       const Axis& axis = axes_[i];
@@ -224,9 +240,17 @@ class Entry {
           names += "," + name_of(axes_[i].key, axes_[i].values.at(index[i]));
       }
     }
+    check_variance(c.frame.shading);
     c.id = fmt::format("{}/{}/{}", scene, method_.name, names);
     c.parameters = resolved(c);
     return c;
+  }
+
+  // The disk of [VSGL14] has r² = 2σ² of the three-dimensional variance: halved, it would be another disk's.
+  void check_variance(const Shading& shading) const {
+    if (shading.empty() || chosen(shading, "shading") != "vsgl14" || chosen(shading, "variance") != "disk") return;
+    throw doc_.error(at_, "makes a case of shading vsgl14 with variance disk, which vsgl14 has no use for: its r² = 2σ² "
+                          "takes the 3d variance; sweep the two in entries of their own");
   }
 
   // Whether the key is one that every case has; then its value is in `frame`.
@@ -277,13 +301,15 @@ class Entry {
     }
   }
 
+  // As text, also where it is written as a number.
   std::string shading_choice(const Axis& axis, const Json& value) const {
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     try {
-      check_shading_choice(axis.key, value.is_string() ? value.get<std::string>() : value.dump());
+      check_shading_choice(axis.key, text);
     } catch (const Error& e) {
       throw doc_.error(axis.at, e.what());
     }
-    return value.get<std::string>();
+    return text;
   }
 
   Json resolved(const Case& c) const {
@@ -309,6 +335,7 @@ class Entry {
   const Json& json_;
   std::string at_;
   bool sees_;  // a frame is shaded, and visibility matters
+  Json preset_, root_preset_;
   const MethodInfo& method_;
   std::vector<Axis> axes_;
 };

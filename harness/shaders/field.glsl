@@ -43,6 +43,12 @@ bool load_texel(Emitter e, ivec2 at, out Texel t) {
   return position.w > 0.0;
 }
 
+// Lambert's lobe as an SG: sharpness 2 [VSGL15s Eq. A.1]; LAMBERT_LOBE 1: 2.2925, of the author's later code.
+#ifndef LAMBERT_LOBE
+#define LAMBERT_LOBE 0
+#endif
+float lambert_sharpness() { return LAMBERT_LOBE == 1 ? 2.2925 : 2.0; }
+
 // Reflected specular power ratio along the mirror direction: ∫C·G/A with C = peak V F n·l gives F·G2 for
 // GGX and (n+2)/n F·G2 for Phong [MFIS16 Eq. 7; the paper leaves R_s open].
 vec3 specular_reflectance(Surface s) {
@@ -56,9 +62,8 @@ Moments leaf_moments(Texel t) {
   Surface s = t.surface;
   float cosine = max(dot(s.normal, s.view), 1e-3);
   Moments m;
-  // Diffuse lobe: Lambert as an SG of sharpness 2 [VSGL15s Eq. A.1].
   m.diffuse.power = t.flux * s.diffuse;
-  m.diffuse.q = lobe_complement(2.0);
+  m.diffuse.q = lobe_complement(lambert_sharpness());
   m.diffuse.direction = (1.0 - m.diffuse.q) * s.normal;
   // Specular lobe: about the mirror direction, λs = λh/(4|ω'·n|) [VSGL15s App. A].
   m.specular.power = t.flux * specular_reflectance(s);

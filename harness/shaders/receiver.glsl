@@ -7,6 +7,11 @@
 #include "sg.glsl"
 #include "types.h"
 
+// What the specular lobe is: 0 asg, an anisotropic SG; 1 sg, the BRDF itself with its NDF widened by the light's SG.
+#ifndef RECEIVER_LOBE
+#define RECEIVER_LOBE 0
+#endif
+
 // The receiver's specular lobe as an anisotropic SG [MFIS16 App. C.2; Xu et al. 2013]:
 // C(ω) max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²), x in the plane of incidence, z the mirror direction. Turning ω by δ turns
 // the half vector by δ/2 in that plane and by δ/(2 n·v) across it, so ηx = λh/8 and ηy = λh/(8 (n·v)²).
@@ -34,13 +39,38 @@ Receiver make_receiver(Surface s) {
   return r;
 }
 
-// ∫ G(ω;ξ,λ) of the specular lobe: SG × ASG [VSGL15s App. B], with C = peak · V · F · `cosine` at the SG's axis.
-vec3 receiver_specular(Receiver r, Sg sg, float cosine) {
+// ∫ G(ω;ξ,λ) D(h(ω)) of the NDF D: SG × ASG [VSGL15s App. B].
+float receiver_asg(Receiver r, Sg sg) {
   vec3 local = vec3(dot(sg.axis, r.x), dot(sg.axis, r.y), dot(sg.axis, r.z));
-  float lobe = asg_product(local, sg.sharpness, r.eta_x, r.eta_y);
+  return r.peak * asg_product(local, sg.sharpness, r.eta_x, r.eta_y);
+}
+
+// The same by filtering the NDF: over the half vector the light's SG has the sharpness 4 (v·h) λ (the Jacobian of the
+// reflection, 1/(4 v·h), is taken as equal in both directions), and widens D. A Phong lobe of exponent n becomes one of
+// n λ'/(n+λ'). GGX's α² grows by 2/λ' in the space of slopes, where α²/(1-α²) stands for α² and no lobe is wider than
+// the hemisphere (Tokuyoshi and Kaplanyan 2021). As λ → ∞ it is D(h) itself. Above a sharpness of 2^41 nothing widens.
+float receiver_filtered(Receiver r, Sg sg, float vh) {
+  float wide = max(4.0 * vh * sg.sharpness, 1e-6);
+  vec3 h = safe_normalize(sg.axis + r.surface.view, r.surface.normal);
+  float ndf = r.surface.ndf;
+  if (ndf > 0.0) {
+    float slope2 = ndf * ndf / max(1.0 - ndf * ndf, 1e-6) + 2.0 / wide;
+    ndf = sqrt(slope2 / (1.0 + slope2));
+  } else {
+    ndf = ndf * (wide / (wide - ndf));
+  }
+  return sg_integral(sg.sharpness) * ndf_value(ndf, r.surface.normal, h);
+}
+
+// ∫ G(ω;ξ,λ) of the specular lobe, with V · F · `cosine` pulled out of the integral at the SG's axis.
+vec3 receiver_specular(Receiver r, Sg sg, float cosine) {
   float vh = 0.5 * length(sg.axis + r.surface.view);  // cosine of the half angle
-  float c = r.peak * smith_visibility(cosine, r.nv, r.alpha) * cosine;
-  return fresnel(r.surface.f0, vh) * (c * lobe);
+#if RECEIVER_LOBE == 1
+  float lobe = receiver_filtered(r, sg, vh);
+#else
+  float lobe = receiver_asg(r, sg);
+#endif
+  return fresnel(r.surface.f0, vh) * (smith_visibility(cosine, r.nv, r.alpha) * cosine * lobe);
 }
 
 #endif

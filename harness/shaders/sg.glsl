@@ -80,10 +80,23 @@ float vmf_complement(float sharpness) {
   return 1.0 / sharpness + 2.0 * exp_accurate(-2.0 * sharpness) / expm1(-2.0 * sharpness);
 }
 
+// Inverse of banerjee_sharpness: the root q in (0,1] of (1-q)(2+q(2-q)) = κ q(2-q), by Newton's method from the vMF
+// lobe's own 1-r, which is within 3 % of it. Error < 1e-6 for κ in [0,2^41].
+float banerjee_complement(float sharpness) {
+  float q = vmf_complement(sharpness);
+  for (int i = 0; i < 3; ++i) {
+    float squares = q * (2.0 - q);
+    float value = (1.0 - q) * (2.0 + squares) - sharpness * squares;
+    float slope = 3.0 * squares + 2.0 * sharpness * (1.0 - q);  // minus the derivative
+    q = clamp(slope > 0.0 ? q + value / slope : q, 0.5 * q, 1.0);
+  }
+  return q;
+}
+
 // 1-r of a texel's lobe, by LOBE_CONVERSION: a lone texel comes back with its own sharpness.
 float lobe_complement(float sharpness) {
 #if LOBE_CONVERSION == 1
-  return vmf_complement(sharpness);
+  return banerjee_complement(sharpness);
 #else
   return toksvig_complement(sharpness);
 #endif

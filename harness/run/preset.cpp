@@ -1,0 +1,51 @@
+#include "run/preset.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/nearest.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+fs::path folder() { return data_root() / "configs" / "presets"; }
+
+}  // namespace
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  std::error_code ec;
+  for (const auto& entry : fs::recursive_directory_iterator(folder(), ec)) {
+    if (entry.path().extension() != ".json") continue;
+    names.push_back(entry.path().lexically_relative(folder()).replace_extension().generic_string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+Json load_preset(const std::string& name) {
+  const auto names = preset_names();
+  if (std::ranges::count(names, name) == 0)
+    throw fail(ErrorKind::config, "no preset '{}'{}", name, suggestion(name, names));
+  Json keys = JsonDocument::load(folder() / (name + ".json"), ErrorKind::config).root();
+  if (!keys.is_object())
+    throw fail(ErrorKind::config, "{}: must be an object", (folder() / (name + ".json")).string());
+  keys.erase("description");
+  return keys;
+}
+
+Json preset_of(const JsonDocument& doc, const Json& object, const std::string& at) {
+  if (!object.contains("preset")) return Json::object();
+  const Json& name = object.at("preset");
+  if (!name.is_string()) throw doc.error(at + "/preset", "must be the name of a preset");
+  try {
+    return load_preset(name.get<std::string>());
+  } catch (const Error& e) {
+    throw doc.error(at + "/preset", e.what());
+  }
+}
+
+}  // namespace vsglbench
