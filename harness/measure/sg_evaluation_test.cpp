@@ -73,6 +73,18 @@ SgAnswers cosines(DiffuseKernel kernel, float sharpness) {
   return SgEvaluator(device(), {SgFunction::clamped_cosine, kernel}).evaluate(rows);
 }
 
+// Rows of four arguments to sg_pixel_test.comp; three results a row.
+std::vector<float> shade_rows(const Kernel& pixel, const std::vector<float>& rows) {
+  const auto count = static_cast<uint32_t>(rows.size() / 4);
+  Buffer in(device(), "arguments", rows.size() * sizeof(float)), out(device(), "values", count * 3 * sizeof(float));
+  in.upload(std::span<const float>(rows));
+  Recorder recorder(device());
+  recorder.begin();
+  recorder.pass("pixel", [&] { recorder.dispatch(pixel, {in, out}, count, 1); });
+  recorder.submit_and_wait();
+  return out.download<float>(3 * count);
+}
+
 }  // namespace
 
 // Largest absolute error over 401 cosines: 1.3 times light-transport.md §4's table; at its ends, what the
@@ -221,18 +233,6 @@ TEST(Shrinking, LeavesAShortRowThatFailsStill) {
   EXPECT_EQ(reproducer({SgFunction::clamped_cosine, DiffuseKernel::pettineo_hill}, {0.5f, 1e-6f}),
             "printf 'cosine,sharpness\\n0.5,1e-06\\n' | vsglbench sg --kernel pettineo-hill --function "
             "clamped_cosine");
-}
-
-// Rows of four arguments to sg_pixel_test.comp; three results a row.
-std::vector<float> shade_rows(const Kernel& pixel, const std::vector<float>& rows) {
-  const auto count = static_cast<uint32_t>(rows.size() / 4);
-  Buffer in(device(), "arguments", rows.size() * sizeof(float)), out(device(), "values", count * 3 * sizeof(float));
-  in.upload(std::span<const float>(rows));
-  Recorder recorder(device());
-  recorder.begin();
-  recorder.pass("pixel", [&] { recorder.dispatch(pixel, {in, out}, count, 1); });
-  recorder.submit_and_wait();
-  return out.download<float>(3 * count);
 }
 
 // A texel by itself comes back with the sharpness it had: Banerjee's formula gives it from the mean length that the
