@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "run/laboratory.h"
+#include "stability/planted_tree.h"
 #include "scene/surface.h"
 
 using namespace vsglbench;
@@ -90,4 +91,40 @@ TEST(Rasteriser, SeesWhatRaysSee) {
   std::printf("%zu of %zu pixels differ\n", different, compared);
   EXPECT_GT(compared, kWidth * kHeight / 2);
   EXPECT_LT(static_cast<double>(different), 0.01 * kWidth * kHeight);
+}
+
+// What SG shading costs by itself: every texel a light, by its lobes and by its exact BRDF, without visibility.
+namespace {
+
+Errors of_lobes(Laboratory& lab, const char* shading) {
+  const Image exact = lab.render("all-texels", {{"shading", "exact"}}, 64, 0, Visibility::none);
+  FrameParameters p{.rsm = 64, .visibility = Visibility::none};
+  p.shading = {{"shading", shading}};
+  const Errors e = measure_errors(lab.render("all-texels", {{"shading", shading}}, p), exact, lab.mask);
+  std::printf("%s, %s: SMAPE %.2f %%, rRMSE %.3f, bias %+.2f %%\n", lab.scene.name.c_str(), shading, e.smape, *e.rrmse,
+              100 * *e.bias);
+  return e;
+}
+
+}  // namespace
+
+TEST(Lobes, OfAGlossyRoomHaveTheTabledErrors) {
+  Laboratory glossy("cornell-glossy");
+  const Errors vsgl16 = of_lobes(glossy, "vsgl16"), vsgl14 = of_lobes(glossy, "vsgl14");
+  EXPECT_NEAR(*vsgl16.rrmse, 0.344, 0.01);
+  EXPECT_NEAR(*vsgl16.bias, -0.0757, 0.003);
+  EXPECT_NEAR(*vsgl14.rrmse, 0.307, 0.01);
+  EXPECT_NEAR(*vsgl14.bias, -0.0367, 0.003);
+  // The receiver's lobe turned by 90 degrees.
+  const PlantedTree tree;
+  tree.edit_shaders([](std::string text) {
+    const std::string peak = "r.peak = ndf_peak(s.ndf);";
+    const size_t at = text.find(peak);
+    return at == std::string::npos
+               ? text
+               : text.replace(at, peak.size(), peak + " float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;");
+  });
+  Laboratory turned("cornell-glossy");
+  EXPECT_GT(*of_lobes(turned, "vsgl16").rrmse, 2 * *vsgl16.rrmse);
+  EXPECT_GT(*of_lobes(turned, "vsgl14").rrmse, 2 * *vsgl14.rrmse);
 }
