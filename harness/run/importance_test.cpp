@@ -12,6 +12,7 @@ using glm::dvec3;
 namespace {
 
 constexpr uint32_t kRsm = 16;
+constexpr double kTolerance = 0.01;  // of each figure of the table
 
 // What the emitter of a half sees at texel i, as a light of the flux that the emitter gives it.
 std::vector<gpu::Vpl> texels_of(const DeferredTargets& targets, const gpu::Emitter& emitter) {
@@ -94,9 +95,10 @@ TEST(ImportanceOracle, ThePdfIsTheIntegral) {
     uint32_t lights;
     Difference tabled;
   };
-  for (const Row& row : {Row{"vpl", 256, {-0.0169, 0.6945, 0}}, {"vpl", 4096, {0.0079, 0.0816, 0}},
-                         {"vsgl", 256, {-0.2422, 1.0684, 0}}, {"vsgl", 4096, {-0.1186, 0.5095, 0}}})
-    EXPECT_LT(difference(row.importance, row.lights).largest_change(row.tabled), 0.01) << row.importance << " " << row.lights;
+  for (const Row& row : {Row{"vpl", 256, {-0.0169, 0.6945, 0.1729}}, {"vpl", 4096, {0.0079, 0.0816, 0.0173}},
+                         {"vsgl", 256, {-0.2422, 1.0684, 0.2405}}, {"vsgl", 4096, {-0.1186, 0.5095, 0.1511}}}) {
+    EXPECT_LT(difference(row.importance, row.lights).largest_change(row.tabled), kTolerance) << row.importance << " " << row.lights;
+  }
 }
 
 TEST(ImportanceOracle, SeesPlantedFaults) {
@@ -120,6 +122,6 @@ TEST(ImportanceOracle, SeesPlantedFaults) {
       return text.replace(at, std::string(f.text).size(), f.in_its_place);
     });
     ASSERT_EQ(planted, 1u) << f.text;
-    EXPECT_GT(difference(f.importance, lights).largest_change(sound), 0.03) << f.in_its_place;
+    EXPECT_GT(difference(f.importance, lights).largest_change(sound), 2 * kTolerance) << f.in_its_place;
   }
 }

@@ -2,9 +2,13 @@
 // brute force. Small frames; RSMs of 32² to 128².
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "reference/brdf.h"
 #include "run/laboratory.h"
-#include "stability/planted_tree.h"
 #include "scene/surface.h"
+#include "shaders/shading_exact.h"
+#include "stability/planted_tree.h"
 
 using namespace vsglbench;
 
@@ -127,4 +131,28 @@ TEST(Lobes, OfAGlossyRoomHaveTheTabledErrors) {
   Laboratory turned("cornell-glossy");
   EXPECT_GT(*of_lobes(turned, "vsgl16").rrmse, 2 * *vsgl16.rrmse);
   EXPECT_GT(*of_lobes(turned, "vsgl14").rrmse, 2 * *vsgl14.rrmse);
+}
+
+// The BRDF of the oracles and that of the reference were written apart.
+TEST(Brdfs, OfOraclesAndReferenceAgree) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const auto vector = [&] { return glm::vec3(uniform(random), uniform(random), uniform(random)); };
+  const auto direction = [&] { return glm::normalize(2.0f * vector() - 1.0f); };
+  int lit = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Surface s;
+    s.normal = direction();
+    s.geometric_normal = glm::normalize(s.normal + 0.3f * direction());
+    s.diffuse = vector();
+    s.f0 = vector();
+    s.ndf = uniform(random) < 0.5f ? 0.05f + 0.95f * uniform(random) : -std::exp(7 * uniform(random));
+    const glm::vec3 view = glm::normalize(s.normal + 0.95f * direction()), l = direction();
+    const exact::Surface e{glm::dvec3(0), s.normal, s.geometric_normal, view, s.diffuse, s.f0, s.ndf};
+    const double expected = exact::brdf_cosine(e, l).x, value = Brdf(s, view).f(l).x * glm::dot(s.normal, l);
+    if (expected == 0) continue;
+    ++lit;
+    ASSERT_NEAR(value / expected, 1, 1e-3) << i << " ndf " << s.ndf;
+  }
+  EXPECT_GT(lit, 5000);
 }
