@@ -10,7 +10,8 @@ using glm::dvec3;
 namespace {
 
 dvec3 turned(const dvec3& v) {
-  const dvec3 z = glm::normalize(dvec3(0.48, -0.6, 0.64)), x = glm::normalize(glm::cross(z, dvec3(0.2, 0.9, 0.3)));
+  const dvec3 z = glm::normalize(dvec3(0.48, -0.6, 0.64)),
+              x = glm::normalize(glm::cross(z, dvec3(0.2, 0.9, 0.3)));
   return v.x * x + v.y * glm::cross(z, x) + v.z * z;
 }
 
@@ -49,7 +50,8 @@ ShadingPair mirror_pair(const Material& receiver, double angle, double sigma) {
 void set_texel(const Material& emitter, double angle, ShadingPair* pair) {
   const dvec3 back = -way_at(angle), incident = std::cos(0.7) * back + std::sin(0.7) * across();
   const dvec3 half = glm::normalize(back + incident);
-  pair->texel = record_of(emitter, glm::normalize(half + 0.025 * away_at(angle) + 0.025 * across()), incident);
+  pair->texel =
+      record_of(emitter, glm::normalize(half + 0.025 * away_at(angle) + 0.025 * across()), incident);
   pair->texel.position = pair->light.mean;
 }
 

@@ -1,5 +1,5 @@
-// Surfaces and lights that the oracles of approximations.h share: the receiver at the origin, in a frame that no
-// coordinate plane favours, the light 1 m away in the mirror direction.
+// Surfaces and lights that the oracles of approximations.h share: the receiver at the origin, in a frame that
+// no coordinate plane favours, the light 1 m away in the mirror direction.
 #pragma once
 
 #include <string>
@@ -31,7 +31,8 @@ gpu::Vpl record_of(const Material& material, const glm::dvec3& normal, const glm
 
 // The VSGL has no intensity yet; its lobes' axes point at the surface.
 ShadingPair mirror_pair(const Material& receiver, double angle, double sigma);
-// The texel at the light's mean, lit from 40° beside the way to the surface, its normal 2° off the half vector in both planes.
+// The texel at the light's mean, lit from 40° beside the way to the surface, its normal 2° off the half
+// vector in both planes.
 void set_texel(const Material& emitter, double angle, ShadingPair* pair);
 
 }  // namespace vsglbench::approximation

@@ -15,9 +15,11 @@ using glm::dvec3;
 using namespace approximation;
 
 double sharpness_of(double ndf) { return ndf > 0 ? 2 / (ndf * ndf) : -ndf; }
-std::string ndf_name(float ndf) { return ndf > 0 ? fmt::format("GGX {}", ndf) : fmt::format("Phong {}", -ndf); }
+std::string ndf_name(float ndf) {
+  return ndf > 0 ? fmt::format("GGX {}", ndf) : fmt::format("Phong {}", -ndf);
+}
 
-// Of one case, the pair at each angle.
+// One case: the pair at each angle.
 struct PairRow {
   std::string name;
   std::array<ShadingPair, kViewAngles> pairs;
@@ -62,7 +64,8 @@ std::vector<ErrorRow> receiver_errors(Device& device) {
   return errors;
 }
 
-// 8 × 8 texels of 1 mm, lit from 100 m away in the direction `incident`. Their normals differ by `spread` rad a standard deviation, or not at all.
+// 8 × 8 texels of 1 mm, lit from 100 m away in the direction `incident`. Their normals differ by `spread` rad
+// a standard deviation, or not at all.
 oracle::Half texel_set(const Material& material, const dvec3& incident, double spread) {
   constexpr uint32_t kSize = 8;
   oracle::Half half;
@@ -77,10 +80,12 @@ oracle::Half texel_set(const Material& material, const dvec3& incident, double s
                   .extent = {4e-3f, 4e-3f},
                   .power = glm::vec3(1)};
   for (uint32_t i = 0; i < kSize * kSize; ++i) {
-    const dvec3 place((i % kSize) / 3.5 - 1, i / kSize / 3.5 - 1, 0);  // uniform in [-1,1]², of deviation 0.65
+    const dvec3 place((i % kSize) / 3.5 - 1, i / kSize / 3.5 - 1,
+                      0);  // uniform in [-1,1]², of deviation 0.65
     oracle::Texel t;
     t.position = glm::vec3(4e-3 * (place.x * away_at(0.0) + place.y * across()));
-    t.normal = t.geometric_normal = glm::normalize(normal() + spread / 0.65 * (place.x * away_at(0.0) + place.y * across()));
+    t.normal = t.geometric_normal =
+        glm::normalize(normal() + spread / 0.65 * (place.x * away_at(0.0) + place.y * across()));
     t.diffuse = glm::vec3(material.albedo);
     t.f0 = glm::vec3(material.f0);
     t.ndf = material.ndf;
@@ -95,7 +100,8 @@ double exact_of_texels(const oracle::Half& half, const exact::Surface& surface) 
   double sum = 0;
   for (uint32_t i = 0; i < half.texels.size(); ++i) {
     const oracle::Texel& t = half.texels[i];
-    gpu::Vpl v = record_of({"", t.diffuse.x, t.f0.x, t.ndf}, t.normal, glm::normalize(half.emitter.position - t.position));
+    gpu::Vpl v = record_of({"", t.diffuse.x, t.f0.x, t.ndf}, t.normal,
+                           glm::normalize(half.emitter.position - t.position));
     v.position = t.position;
     v.flux = glm::vec3(oracle::texel_flux(half.emitter, i % half.emitter.width, i / half.emitter.width));
     sum += exact::shade_vpl(surface, v).x;
@@ -113,7 +119,8 @@ ShadingPair far_receiver(const dvec3& direction, const gpu::Vsgl& light) {
 std::vector<ErrorRow> emitter_errors(ShadingProbe& probe) {
   std::vector<PairRow> rows;
   std::vector<std::array<double, kViewAngles>> exact_values;
-  const auto add = [&](const std::string& name, const Material& material, double spread, const auto& direction_at) {
+  const auto add = [&](const std::string& name, const Material& material, double spread,
+                       const auto& direction_at) {
     PairRow row{name};
     auto& exact_row = exact_values.emplace_back();
     for (size_t k = 0; k < kViewAngles; ++k) {
@@ -133,11 +140,13 @@ std::vector<ErrorRow> emitter_errors(ShadingProbe& probe) {
         return std::cos(by) * way_at(angle) + std::sin(by) * to;
       };
       add(name + " on axis", material, spread, way_at);
-      add(name + " in plane, towards", material, spread, [&](double a) { return off(a, -away_at(a), width); });
-      add(name + " across", material, spread, [&](double a) { return off(a, across(), width * std::cos(a)); });
+      add(name + " in plane, towards", material, spread,
+          [&](double a) { return off(a, -away_at(a), width); });
+      add(name + " across", material, spread,
+          [&](double a) { return off(a, across(), width * std::cos(a)); });
     }
   }
-  // Of Lambert the angle is that of emission.
+  // A Lambert lobe is seen at the angle of its columns.
   add("Lambert flat", kLambert, 0, way_at);
   add("Lambert curved", kLambert, 0.3, way_at);
   size_t next = 0;
@@ -147,7 +156,8 @@ std::vector<ErrorRow> emitter_errors(ShadingProbe& probe) {
   });
 }
 
-// A specular lobe of this sharpness, turned away from the surface by `tilt` rad in the plane of incidence or across it.
+// A specular lobe of this sharpness, turned away from the surface by `tilt` rad in the plane of incidence or
+// across it.
 std::vector<PairRow> light_rows() {
   struct Lobe {
     const char* name;
@@ -157,7 +167,9 @@ std::vector<PairRow> light_rows() {
   std::vector<PairRow> rows;
   for (const Material& receiver : {kLambert, kPhong, kMixed}) {
     for (const double spread : {100.0, 10.0, 3.0, 1.0}) {
-      for (const Lobe& lobe : {Lobe{"even", 0, 0, 0}, {"sharp", 50, 0, 0}, {"sharp, tilted in plane", 50, 0.25, 0},
+      for (const Lobe& lobe : {Lobe{"even", 0, 0, 0},
+                               {"sharp", 50, 0, 0},
+                               {"sharp, tilted in plane", 50, 0.25, 0},
                                {"sharp, tilted across", 50, 0, 0.25}}) {
         PairRow row{fmt::format("{} d/sigma {} {}", receiver.name, spread, lobe.name)};
         for (size_t k = 0; k < kViewAngles; ++k) {
@@ -165,8 +177,8 @@ std::vector<PairRow> light_rows() {
           ShadingPair& pair = row.pairs[k] = mirror_pair(receiver, angle, 1 / spread);
           pair.light.specular = glm::vec3(1);
           pair.light.specular_sharpness = lobe.sharpness;
-          pair.light.specular_axis = glm::vec3(
-              glm::normalize(-way_at(angle) + std::tan(lobe.in_plane) * away_at(angle) + std::tan(lobe.across) * across()));
+          pair.light.specular_axis = glm::vec3(glm::normalize(
+              -way_at(angle) + std::tan(lobe.in_plane) * away_at(angle) + std::tan(lobe.across) * across()));
         }
         rows.push_back(row);
       }
@@ -176,9 +188,10 @@ std::vector<PairRow> light_rows() {
 }
 
 std::vector<ErrorRow> gaussian_errors(ShadingProbe& probe) {
-  return errors_of(probe, light_rows(), ProbeMode::vsgl, {}, [](const exact::Surface& s, const ShadingPair& pair) {
-    return exact::reflected_radiance(s, exact::incoming_gaussian(pair.light, s.position), 1e-4).value.x;
-  });
+  return errors_of(
+      probe, light_rows(), ProbeMode::vsgl, {}, [](const exact::Surface& s, const ShadingPair& pair) {
+        return exact::reflected_radiance(s, exact::incoming_gaussian(pair.light, s.position), 1e-4).value.x;
+      });
 }
 
 std::vector<ErrorRow> disk_errors(ShadingProbe& probe) {
@@ -197,10 +210,11 @@ std::vector<ErrorRow> disk_errors(ShadingProbe& probe) {
       rows.push_back(row);
     }
   }
-  return errors_of(probe, rows, ProbeMode::vsgl, {{"SHADING_MODEL", "1"}},
-                   [](const exact::Surface& s, const ShadingPair& pair) {
-                     return exact::reflected_radiance(s, exact::incoming_disk(pair.light, s.position), 1e-4).value.x;
-                   });
+  return errors_of(
+      probe, rows, ProbeMode::vsgl, {{"SHADING_MODEL", "1"}},
+      [](const exact::Surface& s, const ShadingPair& pair) {
+        return exact::reflected_radiance(s, exact::incoming_disk(pair.light, s.position), 1e-4).value.x;
+      });
 }
 
 std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
@@ -218,9 +232,11 @@ std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
       }
     }
   }
-  return errors_of(probe, rows, ProbeMode::cancelled, {}, [](const exact::Surface& s, const ShadingPair& pair) {
-    return exact::reflected_radiance(s, exact::incoming_disk(pair.light, pair.texel, s.position), 1e-4).value.x;
-  });
+  return errors_of(
+      probe, rows, ProbeMode::cancelled, {}, [](const exact::Surface& s, const ShadingPair& pair) {
+        return exact::reflected_radiance(s, exact::incoming_disk(pair.light, pair.texel, s.position), 1e-4)
+            .value.x;
+      });
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The two oracles of approximations.h that are no table: the sampled estimate of virtual spherical lights, and the
-// decision of bias reduction.
+// The two oracles of approximations.h that are no table: the sampled estimate of virtual spherical lights,
+// and the decision of bias reduction.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -25,7 +25,8 @@ std::vector<SampledError> vsl_errors(Device& device, uint32_t runs) {
           pair.texel.radius = static_cast<float>(radius);
           pair.texel.samples = 16;
           pairs.push_back(pair);
-          errors.push_back({fmt::format("{} from {} r/d {} at {}", receiver.name, emitter.name, radius, view)});
+          errors.push_back(
+              {fmt::format("{} from {} r/d {} at {}", receiver.name, emitter.name, radius, view)});
         }
       }
     }
@@ -60,9 +61,11 @@ std::vector<std::string> wrong_cancellations(Device& device) {
           const double solid_angle = 2 * std::numbers::pi * (1 - 1 / std::sqrt(1 + radius * radius));
           const double alpha = sharpest * solid_angle / (4 * std::numbers::pi);
           for (const auto& [factor, cancels] : {std::pair(0.99, 0.0f), {1.01, 1.0f}}) {
-            const auto value = probe.shade({pair}, ProbeMode::cancelled, {}, static_cast<float>(factor * alpha))[0];
-            if (value.a != cancels) wrong.push_back(fmt::format("Phong {} at {}, emitter {}, r/d {}: {} at {} of the bound",
-                                                                -ndf, view, emitter, radius, value.a, factor));
+            const auto value =
+                probe.shade({pair}, ProbeMode::cancelled, {}, static_cast<float>(factor * alpha))[0];
+            if (value.a != cancels)
+              wrong.push_back(fmt::format("Phong {} at {}, emitter {}, r/d {}: {} at {} of the bound", -ndf,
+                                          view, emitter, radius, value.a, factor));
           }
         }
       }
@@ -71,7 +74,8 @@ std::vector<std::string> wrong_cancellations(Device& device) {
   ShadingPair diffuse = mirror_pair(kLambert, radians(60), 3);
   diffuse.light.diffuse = glm::vec3(1);
   diffuse.light.diffuse_sharpness = 2;
-  if (probe.shade({diffuse}, ProbeMode::cancelled, {}, 1e-6f)[0].a != 1) wrong.push_back("a diffuse pair is kept");
+  if (probe.shade({diffuse}, ProbeMode::cancelled, {}, 1e-6f)[0].a != 1)
+    wrong.push_back("a diffuse pair is kept");
   return wrong;
 }
 

@@ -1,4 +1,5 @@
-// The approximations of shading on the device, each held to the committed errors against the rendering integral.
+// The approximations of shading on the device, each held to the committed errors against the rendering
+// integral.
 #include "measure/approximations.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ TEST(Approximations, AreGoodWhereTheyShouldBe) {
   }
   for (const char* oracle : {"gaussian", "disk", "cancelled"}) {
     for (const auto& [name, error] : tabled_errors(oracle)) {
-      if (name.find("d/sigma 100") == std::string::npos && name.find("r/d 0.001") == std::string::npos) continue;
+      if (name.find("d/sigma 100") == std::string::npos && name.find("r/d 0.001") == std::string::npos)
+        continue;
       for (size_t k = 0; k < error.size(); ++k)
         EXPECT_LT(std::abs(error[k]), k + 1 < error.size() ? 0.01 : 0.05) << oracle << " " << name;
     }

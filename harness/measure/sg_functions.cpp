@@ -84,7 +84,8 @@ const std::vector<SgFunctionInfo>& sg_functions() {
        relative,
        0,
        kInfinity,
-       "specular reflection of an SG at an angle from the mirror direction (degrees; plane 0 and 180 in the plane of "
+       "specular reflection of an SG at an angle from the mirror direction (degrees; plane 0 and 180 in the "
+       "plane of "
        "incidence, 90 across), against cubature of the exact BRDF; without --in and --random its table"},
   };
   return all;

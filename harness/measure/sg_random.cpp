@@ -108,7 +108,11 @@ std::vector<double> receiver_row(Draw& draw) {
   const double ndf = draw.uniform() < 0.5 ? draw.within(1e-3f, 1) : -draw.within(1, 65535);
   const double sharpness = ndf > 0 ? 2 / (ndf * ndf) : -ndf;
   const double offset = std::min(180 * draw.uniform(), 180 * draw.uniform() / std::sqrt(sharpness));
-  return {ndf, draw.uniform(), 89 * draw.uniform(), offset, 180 * (2 * draw.uniform() - 1),
+  return {ndf,
+          draw.uniform(),
+          89 * draw.uniform(),
+          offset,
+          180 * (2 * draw.uniform() - 1),
           sharpness * draw.log_uniform(0.01, 100)};
 }
 

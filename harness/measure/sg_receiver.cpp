@@ -17,7 +17,8 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // A frame that no coordinate plane favours.
 dvec3 turned(const dvec3& v) {
-  const dvec3 z = glm::normalize(dvec3(0.48, -0.6, 0.64)), x = glm::normalize(glm::cross(z, dvec3(0.2, 0.9, 0.3)));
+  const dvec3 z = glm::normalize(dvec3(0.48, -0.6, 0.64)),
+              x = glm::normalize(glm::cross(z, dvec3(0.2, 0.9, 0.3)));
   return v.x * x + v.y * glm::cross(z, x) + v.z * z;
 }
 
@@ -52,13 +53,16 @@ std::string out_of_domain(const std::string& column, float value) {
   if (column == "ndf") return sg_shade::out_of_domain(column, value);
   const auto [least, most] = domain(column);
   if (value >= least && value <= most) return "";
-  return fmt::format("{} is {}, not in [{}, {}]", column, value, static_cast<float>(least), static_cast<float>(most));
+  return fmt::format("{} is {}, not in [{}, {}]", column, value, static_cast<float>(least),
+                     static_cast<float>(most));
 }
 
 void append_arguments(std::span<const float> row, std::vector<float>* out) {
   const double view = radians(row[2]), offset = radians(row[3]), plane = radians(row[4]);
   const dvec3 mirror(-std::sin(view), 0, std::cos(view)), away(-std::cos(view), 0, -std::sin(view));
-  append(std::cos(offset) * mirror + std::sin(offset) * (std::cos(plane) * away + std::sin(plane) * dvec3(0, 1, 0)), out);
+  append(std::cos(offset) * mirror +
+             std::sin(offset) * (std::cos(plane) * away + std::sin(plane) * dvec3(0, 1, 0)),
+         out);
   out->push_back(row[5]);
   append({0, 0, 1}, out);
   append({std::sin(view), 0, std::cos(view)}, out);

@@ -28,12 +28,14 @@ std::vector<glm::vec4> ShadingProbe::shade(const std::vector<ShadingPair>& pairs
   const Kernel& kernel = kernels_.get(kernel_file("approximation.comp"), defines);
   Device& device = recorder_.device();
   const auto count = static_cast<uint32_t>(pairs.size());
-  const Buffer surfaces = upload(device, pairs, &ShadingPair::surface), lights = upload(device, pairs, &ShadingPair::light),
+  const Buffer surfaces = upload(device, pairs, &ShadingPair::surface),
+               lights = upload(device, pairs, &ShadingPair::light),
                texels = upload(device, pairs, &ShadingPair::texel);
   const Buffer values(device, "values", size_t{count} * runs * sizeof(glm::vec4));
   recorder_.begin();
   recorder_.pass("probe", [&] {
-    recorder_.dispatch(kernel, {surfaces, lights, texels, values}, Push{count, runs, alpha}, groups_for(count * runs, 64));
+    recorder_.dispatch(kernel, {surfaces, lights, texels, values}, Push{count, runs, alpha},
+                       groups_for(count * runs, 64));
   });
   recorder_.submit_and_wait();
   return values.download<glm::vec4>(size_t{count} * runs);

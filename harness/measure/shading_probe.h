@@ -1,4 +1,5 @@
-// Single lights at single surfaces on the device, by the functions of harness/shaders that pixels and methods call.
+// Single lights at single surfaces on the device, by the functions of harness/shaders that pixels and methods
+// call.
 #pragma once
 
 #include <vector>
@@ -23,8 +24,8 @@ class ShadingProbe {
  public:
   explicit ShadingProbe(Device& device) : kernels_(device), recorder_(device) {}
   // rgb: radiance, W/(m² sr), `runs` values a pair; a: 1 where bias reduction cancels the pair at `alpha`.
-  std::vector<glm::vec4> shade(const std::vector<ShadingPair>& pairs, ProbeMode mode, ShaderDefines defines = {},
-                               float alpha = 0, uint32_t runs = 1);
+  std::vector<glm::vec4> shade(const std::vector<ShadingPair>& pairs, ProbeMode mode,
+                               ShaderDefines defines = {}, float alpha = 0, uint32_t runs = 1);
   // All texels of a half as one light.
   gpu::Vsgl light_of(const oracle::Half& half);
 

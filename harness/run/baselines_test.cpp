@@ -53,8 +53,8 @@ double over_seeds(Laboratory& lab, const std::string& method, const Json& own, c
 
 }  // namespace
 
-// [VSGL14 §3.3, Fig. 6]: a diffuse lobe has sharpness 0, so that between Lambert surfaces every pair cancels, at the paper's
-// own α = 0.001, too; the image then comes to that of exact BRDFs as lights grow.
+// [VSGL14 §3.3, Fig. 6]: a diffuse lobe has sharpness 0, so that between Lambert surfaces every pair cancels,
+// at the paper's own α = 0.001, too; the image then comes to that of exact BRDFs as lights grow.
 TEST(BiasReduction, CancelsAllDiffusePairs) {
   Laboratory& lab = cornell();
   const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(64, 0));
@@ -71,8 +71,9 @@ TEST(BiasReduction, CancelsAllDiffusePairs) {
   EXPECT_LT(error, 2);
 }
 
-// On glossy surfaces the rate rises with N, since the lights' disks shrink, once their lobes are no wider than the texels'
-// own (at N = 16 they are, and more Lambert receivers cancel), and the image comes to that of exact BRDFs.
+// On glossy surfaces the rate rises with N, since the lights' disks shrink, once their lobes are no wider
+// than the texels' own (at N = 16 they are, and more Lambert receivers cancel), and the image comes to that
+// of exact BRDFs.
 TEST(BiasReduction, ComesToExactBrdfsAsLightsGrow) {
   Laboratory& lab = glossy();
   const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(64, 0));
@@ -81,8 +82,8 @@ TEST(BiasReduction, ComesToExactBrdfsAsLightsGrow) {
     FrameParameters p = frame(64, lights);
     p.bias_reduction = 0.1f;
     const Errors e = measure_errors(lab.render("mfis", Json::object(), p), exact, lab.mask);
-    std::printf("N %u: SMAPE %.3f %%, rRMSE %.3f, bias %+.2f %%, cancellation rate %.4f\n", lights, e.smape, *e.rrmse,
-                100 * *e.bias, *lab.notes.cancellation_rate);
+    std::printf("N %u: SMAPE %.3f %%, rRMSE %.3f, bias %+.2f %%, cancellation rate %.4f\n", lights, e.smape,
+                *e.rrmse, 100 * *e.bias, *lab.notes.cancellation_rate);
     EXPECT_LT(e.smape, error);
     EXPECT_GT(*lab.notes.cancellation_rate, rate);
     error = e.smape;
@@ -128,8 +129,8 @@ TEST(BiasReduction, GrowsWithAlpha) {
       p.shading = {{"shading", shading}};
       p.bias_reduction = alpha;
       const Errors e = measure_errors(lab.render("all-texels", {{"shading", shading}}, p), exact, lab.mask);
-      std::printf("%s, alpha %g: SMAPE %.3f %%, rRMSE %.4f, bias %+.2f %%, rate %.4f\n", shading, alpha, e.smape, *e.rrmse,
-                  100 * *e.bias, *lab.notes.cancellation_rate);
+      std::printf("%s, alpha %g: SMAPE %.3f %%, rRMSE %.4f, bias %+.2f %%, rate %.4f\n", shading, alpha,
+                  e.smape, *e.rrmse, 100 * *e.bias, *lab.notes.cancellation_rate);
       EXPECT_LE(e.smape, error * 1.001) << alpha;
       EXPECT_GE(*lab.notes.cancellation_rate, rate) << alpha;
       error = e.smape;

@@ -1,5 +1,6 @@
-// The PDF on the RSM against the integral that it approximates: what each texel's light is worth to the eye with exact
-// BRDFs at both ends, Σ over pixels of Φ f f cos cos/d² over their number [VSGL14 §3; Ritschel et al. 2011].
+// The PDF on the RSM against the integral that it approximates: what each texel's light is worth to the eye
+// with exact BRDFs at both ends, Σ over pixels of Φ f f cos cos/d² over their number [VSGL14 §3; Ritschel et
+// al. 2011].
 #include <gtest/gtest.h>
 
 #include "run/laboratory.h"
@@ -40,10 +41,12 @@ std::vector<gpu::Vpl> texels_of(const DeferredTargets& targets, const gpu::Emitt
   return texels;
 }
 
-// Of each texel of the RSM; computed once, since nothing that is planted here changes what is seen.
+// One integral for each texel of the RSM; computed once, since nothing that is planted here changes what is
+// seen.
 const std::vector<double>& integrals(Laboratory& lab) {
   static const std::vector<double> all = [&] {
-    const auto pixels = texels_of(lab.stage.targets(Half::gbuffer, Laboratory::kWidth, Laboratory::kHeight), lab.camera);
+    const auto pixels =
+        texels_of(lab.stage.targets(Half::gbuffer, Laboratory::kWidth, Laboratory::kHeight), lab.camera);
     std::vector<double> out;
     for (const gpu::Vpl& texel : texels_of(lab.stage.targets(Half::rsm, kRsm, kRsm), lab.light)) {
       dvec3 radiance(0);
@@ -70,7 +73,10 @@ Difference difference(const char* importance, uint32_t lights) {
   Laboratory lab("cornell-glossy");
   lab.importance_lights = lights;
   lab.render("mfis", Json::object(),
-             {.rsm = kRsm, .lights = 16, .visibility = Visibility::none, .importance = parse_importance(importance)});
+             {.rsm = kRsm,
+              .lights = 16,
+              .visibility = Visibility::none,
+              .importance = parse_importance(importance)});
   const std::vector<double>& exact = integrals(lab);
   const auto count = static_cast<double>(exact.size());
   double sum = 0, integral = 0, square = 0, symmetric = 0;
@@ -82,7 +88,8 @@ Difference difference(const char* importance, uint32_t lights) {
     symmetric += p + r > 0 ? 2 * std::abs(p - r) / (p + r) : 0;
   }
   const Difference d{sum / integral - 1, std::sqrt(square / count) / (integral / count), symmetric / count};
-  std::printf("importance %s, %u lights: bias %+.4f, rRMSE %.4f, SMAPE %.4f\n", importance, lights, d.bias, d.rrmse, d.smape);
+  std::printf("importance %s, %u lights: bias %+.4f, rRMSE %.4f, SMAPE %.4f\n", importance, lights, d.bias,
+              d.rrmse, d.smape);
   return d;
 }
 
@@ -95,9 +102,12 @@ TEST(ImportanceOracle, ThePdfIsTheIntegral) {
     uint32_t lights;
     Difference tabled;
   };
-  for (const Row& row : {Row{"vpl", 256, {-0.0169, 0.6945, 0.1729}}, {"vpl", 4096, {0.0079, 0.0816, 0.0173}},
-                         {"vsgl", 256, {-0.2422, 1.0684, 0.2405}}, {"vsgl", 4096, {-0.1186, 0.5095, 0.1511}}}) {
-    EXPECT_LT(difference(row.importance, row.lights).largest_change(row.tabled), kTolerance) << row.importance << " " << row.lights;
+  for (const Row& row : {Row{"vpl", 256, {-0.0169, 0.6945, 0.1729}},
+                         {"vpl", 4096, {0.0079, 0.0816, 0.0173}},
+                         {"vsgl", 256, {-0.2422, 1.0684, 0.2405}},
+                         {"vsgl", 4096, {-0.1186, 0.5095, 0.1511}}}) {
+    EXPECT_LT(difference(row.importance, row.lights).largest_change(row.tabled), kTolerance)
+        << row.importance << " " << row.lights;
   }
 }
 

@@ -36,7 +36,8 @@ class Laboratory {
                Visibility visibility) {
     return render(method, own, {.rsm = rsm, .lights = lights, .visibility = visibility});
   }
-  // Of kWidth × kHeight pixels and importance_lights, whatever `p` says. What is not const below is of the last one.
+  // Of kWidth × kHeight pixels and importance_lights, whatever `p` says. What is not const below is of the
+  // last one.
   Image render(const std::string& method, const Json& own, FrameParameters p, uint32_t seed = 0) {
     p.width = kWidth;
     p.height = kHeight;

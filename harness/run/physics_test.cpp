@@ -97,7 +97,8 @@ TEST(Rasteriser, SeesWhatRaysSee) {
   EXPECT_LT(static_cast<double>(different), 0.01 * kWidth * kHeight);
 }
 
-// What SG shading costs by itself: every texel a light, by its lobes and by its exact BRDF, without visibility.
+// What SG shading costs by itself: every texel a light, by its lobes and by its exact BRDF, without
+// visibility.
 namespace {
 
 Errors of_lobes(Laboratory& lab, const char* shading) {
@@ -105,8 +106,8 @@ Errors of_lobes(Laboratory& lab, const char* shading) {
   FrameParameters p{.rsm = 64, .visibility = Visibility::none};
   p.shading = {{"shading", shading}};
   const Errors e = measure_errors(lab.render("all-texels", {{"shading", shading}}, p), exact, lab.mask);
-  std::printf("%s, %s: SMAPE %.2f %%, rRMSE %.3f, bias %+.2f %%\n", lab.scene.name.c_str(), shading, e.smape, *e.rrmse,
-              100 * *e.bias);
+  std::printf("%s, %s: SMAPE %.2f %%, rRMSE %.3f, bias %+.2f %%\n", lab.scene.name.c_str(), shading, e.smape,
+              *e.rrmse, 100 * *e.bias);
   return e;
 }
 
@@ -126,7 +127,8 @@ TEST(Lobes, OfAGlossyRoomHaveTheTabledErrors) {
     const size_t at = text.find(peak);
     return at == std::string::npos
                ? text
-               : text.replace(at, peak.size(), peak + " float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;");
+               : text.replace(at, peak.size(),
+                              peak + " float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;");
   });
   Laboratory turned("cornell-glossy");
   EXPECT_GT(*of_lobes(turned, "vsgl16").rrmse, 2 * *vsgl16.rrmse);

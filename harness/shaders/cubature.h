@@ -24,8 +24,8 @@ struct Peak {
   double width = 0;  // rad
 };
 
-// ∫f(ω) dω over the cone to `relative_error`, or as near as 200 thousand evaluations come. A peak of `peaks` is not
-// missed however narrow it is.
+// ∫f(ω) dω over the cone to `relative_error`, or as near as 200 thousand evaluations come. A peak of `peaks`
+// is not missed however narrow it is.
 Integral integrate(const Cone& cone, std::span<const Peak> peaks, double relative_error,
                    const std::function<glm::dvec3(const glm::dvec3&)>& f);
 

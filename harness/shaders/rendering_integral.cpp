@@ -38,14 +38,16 @@ Incoming disk(const gpu::Vsgl& light, const dvec3& position,
               const std::function<dvec3(const dvec3&)>& intensity, const Peak& peak) {
   const Way way(light.mean, position);
   const double radius = std::sqrt(2.0 * light.variance), area = pi * square(radius);
-  return {[=](const dvec3& l) { return intensity(-l) / area; }, {{-peak.direction, peak.width}},
+  return {[=](const dvec3& l) { return intensity(-l) / area; },
+          {{-peak.direction, peak.width}},
           {way.direction, std::atan2(radius, way.distance)}};
 }
 
 }  // namespace
 
 Incoming incoming_sg(const dvec3& axis, double sharpness) {
-  return {[=](const dvec3& l) { return dvec3(sg_value(l, axis, sharpness)); }, {{axis, width_of(sharpness)}},
+  return {[=](const dvec3& l) { return dvec3(sg_value(l, axis, sharpness)); },
+          {{axis, width_of(sharpness)}},
           cone_of(axis, sharpness)};
 }
 

@@ -33,8 +33,9 @@ gpu::Vsgl light_at(const glm::vec3& mean, float variance) {
 
 }  // namespace
 
-// Derived from the half vector in rendering_integral.h: λh/8 in the plane of incidence, λh/(8 (n·v)²) across it. GGX falls
-// from its peak as an SG of 4(1-α²)/α²; the papers' 2/α² [VSGL15s App. A] is that of the SG with its peak and integral.
+// Derived from the half vector in rendering_integral.h: λh/8 in the plane of incidence, λh/(8 (n·v)²) across
+// it. GGX falls from its peak as an SG of 4(1-α²)/α²; the papers' 2/α² [VSGL15s App. A] is that of the SG
+// with its peak and integral.
 TEST(ReflectedLobe, IsNarrowerAcrossThePlaneOfIncidence) {
   for (const double ndf : {-1000.0, std::sqrt(4 / 1004.0)}) {
     for (const auto& [degrees, across] : {std::pair(0.0, 125.0), {60.0, 500.0}, {75.0, 1866.0}}) {
@@ -54,22 +55,22 @@ TEST(RenderingIntegral, OfLambertIsTheClampedCosine) {
       s.f0 = dvec3(0);
       const double a = radians(degrees);
       const dvec3 axis(std::sin(a), 0, std::cos(a));
-      const double expected =
-          0.7 / kPi * sg_integral(sharpness) * clamped_cosine(std::cos(a), sharpness);
+      const double expected = 0.7 / kPi * sg_integral(sharpness) * clamped_cosine(std::cos(a), sharpness);
       const double value = reflected_radiance(s, incoming_sg(axis, sharpness), 1e-6).value.x;
       EXPECT_NEAR(value / expected, 1, 1e-5) << sharpness << " " << degrees;
     }
   }
 }
 
-// Under radiance 1 from everywhere a microfacet surface of F0 = 1 reflects no more than that; a sharp one seen from
-// above all but all of it.
+// Under radiance 1 from everywhere a microfacet surface of F0 = 1 reflects no more than that; a sharp one
+// seen from above all but all of it.
 TEST(RenderingIntegral, KeepsEnergy) {
   for (const double ndf : {0.05, 0.1, 0.3, 1.0, -30.0, -300.0, -1023.0, -65535.0}) {
     for (const double degrees : {0.0, 45.0, 75.0, 85.0}) {
-      const double albedo = reflected_radiance(surface(degrees, ndf), incoming_sg({0, 0, 1}, 0), 1e-4).value.x;
+      const double albedo =
+          reflected_radiance(surface(degrees, ndf), incoming_sg({0, 0, 1}, 0), 1e-4).value.x;
       EXPECT_LT(albedo, ndf < 0 ? 1.07 : 1.001) << ndf << " " << degrees;  // Phong: (n+2)/n F G
-      EXPECT_GT(albedo, ndf == 1 ? 0.3 : 0.4) << ndf << " " << degrees;  // 1-ln 2 at 0°
+      EXPECT_GT(albedo, ndf == 1 ? 0.3 : 0.4) << ndf << " " << degrees;    // 1-ln 2 at 0°
       if (ndf < -1000 && degrees < 50) {
         EXPECT_GT(albedo, 0.99) << ndf << " " << degrees;
       }
@@ -77,7 +78,8 @@ TEST(RenderingIntegral, KeepsEnergy) {
   }
 }
 
-// A Gaussian's lights far away, and a disk's, are points: I cos/d²; near, the first is its definition: a sum of lights.
+// A Gaussian's lights far away, and a disk's, are points: I cos/d²; near, the first is its definition: a sum
+// of lights.
 TEST(RenderingIntegral, OfFarLightsIsThatOfPoints) {
   exact::Surface s = surface(20, 0.5);
   s.diffuse = dvec3(0.5);

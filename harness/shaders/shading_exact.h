@@ -29,8 +29,8 @@ double ndf_value(double ndf, const glm::dvec3& normal, const glm::dvec3& h);
 // normal's horizon and l above the face's.
 glm::dvec3 brdf_cosine(const Surface& surface, const glm::dvec3& l);
 
-// The mirror direction, where the specular lobe is large, and the lesser width of the lobe there: that of the half
-// vector's distribution times 2 l·h.
+// The mirror direction, where the specular lobe is large, and the lesser width of the lobe there: that of the
+// half vector's distribution times 2 l·h.
 Peak reflected_lobe(const Surface& surface);
 
 // The surface that a point light stands on, seen from the primary light.

@@ -1,5 +1,5 @@
-// Faults planted in the shaders that the oracles of measure/approximations.h must see: a wrong axis, a missing cosine, a
-// factor 2.
+// Faults planted in the shaders that the oracles of measure/approximations.h must see: a wrong axis, a
+// missing cosine, a factor 2.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,8 @@ double share_of_cases(const std::string& oracle) {
 }
 
 // What a swap of both bandwidths makes of the receiver's lobe.
-const char* const kSwap = "r.peak = ndf_peak(s.ndf);\n  r.eta_x += r.eta_y; r.eta_y = r.eta_x - r.eta_y; r.eta_x -= r.eta_y;";
+const char* const kSwap =
+    "r.peak = ndf_peak(s.ndf);\n  r.eta_x += r.eta_y; r.eta_y = r.eta_x - r.eta_y; r.eta_x -= r.eta_y;";
 const char* const kPeak = "r.peak = ndf_peak(s.ndf);";
 
 }  // namespace
@@ -50,7 +51,7 @@ TEST_P(PlantedApproximation, IsSeen) {
   size_t planted = 0;
   tree.edit_shaders([&](std::string text) {
     const size_t at = text.find(fault.text);
-    // By name and not by path: edit_shaders hands over text alone.
+    // edit_shaders hands over no path: a file is known by its include guard.
     if (at == std::string::npos || text.find(fault.file) == std::string::npos) return text;
     ++planted;
     return text.replace(at, fault.text.size(), fault.in_its_place);
@@ -67,28 +68,36 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"receiver", "wrong axis", "VSGLBENCH_RECEIVER_GLSL", kPeak, kSwap},
         Fault{"receiver", "missing cosine", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine;", "r.alpha);"},
         Fault{"receiver", "factor 2", "VSGLBENCH_RECEIVER_GLSL", kPeak, "r.peak = 2.0 * ndf_peak(s.ndf);"},
-        Fault{"receiver", "squared cosine left out", "VSGLBENCH_RECEIVER_GLSL", "(8.0 * r.nv * r.nv)", "(8.0 * r.nv)"},
+        Fault{"receiver", "squared cosine left out", "VSGLBENCH_RECEIVER_GLSL", "(8.0 * r.nv * r.nv)",
+              "(8.0 * r.nv)"},
         Fault{"emitter", "wrong axis", "VSGLBENCH_FIELD_GLSL", "reflect(-s.view, s.normal)", "s.view"},
         Fault{"emitter", "missing cosine", "VSGLBENCH_FIELD_GLSL", "/ (4.0 * cosine)", "/ 4.0"},
         Fault{"emitter", "factor 2", "VSGLBENCH_FIELD_GLSL", "(4.0 * cosine)", "(2.0 * cosine)"},
-        Fault{"gaussian", "wrong axis", "VSGLBENCH_VSGL_SHADING_GLSL", "-light.specular_axis, light.specular_sharpness, log_s",
+        Fault{"gaussian", "wrong axis", "VSGLBENCH_VSGL_SHADING_GLSL",
+              "-light.specular_axis, light.specular_sharpness, log_s",
               "light.specular_axis, light.specular_sharpness, log_s"},
-        Fault{"gaussian", "missing cosine", "VSGLBENCH_VSGL_SHADING_GLSL", "sg_clamped_cosine(nl, sg.sharpness)", "1.0"},
-        Fault{"gaussian", "factor 2", "VSGLBENCH_VSGL_SHADING_GLSL", "distance2 / variance;", "0.5 * distance2 / variance;"},
-        Fault{"disk", "wrong axis", "VSGLBENCH_VSGL14_SHADING_GLSL", "-light.specular_axis", "light.specular_axis"},
+        Fault{"gaussian", "missing cosine", "VSGLBENCH_VSGL_SHADING_GLSL",
+              "sg_clamped_cosine(nl, sg.sharpness)", "1.0"},
+        Fault{"gaussian", "factor 2", "VSGLBENCH_VSGL_SHADING_GLSL", "distance2 / variance;",
+              "0.5 * distance2 / variance;"},
+        Fault{"disk", "wrong axis", "VSGLBENCH_VSGL14_SHADING_GLSL", "-light.specular_axis",
+              "light.specular_axis"},
         Fault{"disk", "missing cosine", "VSGLBENCH_VSGL14_SHADING_GLSL", "(nl / PI)", "(1.0 / PI)"},
         Fault{"disk", "factor 2", "VSGLBENCH_VSGL14_SHADING_GLSL", "return 2.0 / area", "return 1.0 / area"},
-        Fault{"cancelled", "wrong axis", "VSGLBENCH_VPL_SHADING_GLSL", "brdf_cosine(vpl_surface(light), -direction)",
-              "brdf_cosine(vpl_surface(light), direction)"},
+        Fault{"cancelled", "wrong axis", "VSGLBENCH_VPL_SHADING_GLSL",
+              "brdf_cosine(vpl_surface(light), -direction)", "brdf_cosine(vpl_surface(light), direction)"},
         Fault{"cancelled", "missing cosine", "VSGLBENCH_BRDF_GLSL", "fresnel(s.f0, dot(l, h))) * nl;",
               "fresnel(s.f0, dot(l, h)));"},
         Fault{"cancelled", "factor 2", "VSGLBENCH_VSGL14_SHADING_GLSL", "return 2.0 / (h * (h + distance))",
               "return 1.0 / (h * (h + distance))"},
         Fault{"cancelling", "wrong axis", "VSGLBENCH_VSGL_SHADING_GLSL", "max(r.eta_x, r.eta_y)", "r.eta_x"},
-        Fault{"cancelling", "missing cosine", "VSGLBENCH_RECEIVER_GLSL", "(8.0 * r.nv * r.nv)", "(8.0 * r.nv)"},
+        Fault{"cancelling", "missing cosine", "VSGLBENCH_RECEIVER_GLSL", "(8.0 * r.nv * r.nv)",
+              "(8.0 * r.nv)"},
         Fault{"cancelling", "factor 2", "VSGLBENCH_VSGL_SHADING_GLSL", "< 4.0 * alpha", "< 2.0 * alpha"},
-        Fault{"vsl", "wrong axis", "VSGLBENCH_VSL_SHADING_GLSL", "brdf_pdf(emitter, -direction)", "brdf_pdf(emitter, direction)"},
-        Fault{"vsl", "missing cosine", "VSGLBENCH_BRDF_GLSL", "fresnel(s.f0, dot(l, h))) * nl;", "fresnel(s.f0, dot(l, h)));"},
+        Fault{"vsl", "wrong axis", "VSGLBENCH_VSL_SHADING_GLSL", "brdf_pdf(emitter, -direction)",
+              "brdf_pdf(emitter, direction)"},
+        Fault{"vsl", "missing cosine", "VSGLBENCH_BRDF_GLSL", "fresnel(s.f0, dot(l, h))) * nl;",
+              "fresnel(s.f0, dot(l, h)));"},
         Fault{"vsl", "factor 2", "VSGLBENCH_VSL_SHADING_GLSL", "1.0 / (2.0 * PI * c.one_minus_cosine)",
               "1.0 / (PI * c.one_minus_cosine)"}),
     [](const auto& fault) {
