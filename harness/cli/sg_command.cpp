@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "cli/command.h"
 #include "measure/sg_random.h"
+#include "measure/sg_receiver.h"
 
 namespace vsglbench {
 namespace {
@@ -29,7 +30,8 @@ std::string help() {
   }
   return text +
          "Example: printf 'cosine,sharpness\\n0.5,8\\n' | vsglbench sg --kernel tokuyoshi2024\n"
-         "         vsglbench sg --kernel tokuyoshi2022 --random 1000000 --seed 7";
+         "         vsglbench sg --kernel tokuyoshi2022 --random 1000000 --seed 7\n"
+         "         vsglbench sg --function receiver --out receiver.csv";
 }
 
 SgQuestion question(const SgOptions& o) {
@@ -103,6 +105,7 @@ std::vector<float> parse_rows(const SgQuestion& q, const std::string& name, std:
 }
 
 std::vector<float> read_rows(const SgOptions& o, const SgQuestion& q) {
+  if (o.in.empty() && q.function == SgFunction::receiver) return sg_receiver::table_rows();
   if (o.in.empty()) return parse_rows(q, "standard input", std::cin);
   std::ifstream text(o.in);  // which may be a pipe
   if (!text || std::filesystem::is_directory(o.in)) {
@@ -178,7 +181,7 @@ void add_sg_command(CLI::App& app, CommandResult* result) {
   command->add_option("--kernel", options->kernel,
                       fmt::format("diffuse kernel: {}", fmt::join(exact::diffuse_kernel_names(), ", ")));
   command->add_option("--function", options->function, "what to evaluate (default clamped_cosine)");
-  command->add_option("--in", options->in, "CSV file; none: standard input");
+  command->add_option("--in", options->in, "CSV file; none: standard input (receiver: its own table)");
   command->add_option("--out", options->out, "CSV file; none: standard output");
   command
       ->add_option("--random", options->random,

@@ -1,6 +1,7 @@
 // `vsglbench sg` as a user meets it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/file.h"
@@ -97,6 +98,24 @@ TEST_F(SgCommand, ShadesAWholeLight) {
   EXPECT_NE(random.out.find("shade cosine, 2000 random rows, seed 1: error_over_condition p50"),
             std::string::npos)
       << random.out;
+}
+
+// Without rows of its own: the table of the receiver's lobe, in which a lobe turned by 90° is off by more
+// than 2 % at 60°.
+TEST_F(SgCommand, PrintsTheReceiversTable) {
+  const Finished f = finish(start({"sg", "--function", "receiver"}));
+  ASSERT_EQ(f.code, 0) << f.err;
+  EXPECT_TRUE(f.out.starts_with("ndf,f0,view,offset,plane,sharpness,value,exact,rel_error\n-30,1,0,0,0,30,"))
+      << f.out;
+  EXPECT_EQ(std::count(f.out.begin(), f.out.end(), '\n'), 1 + 18 * 7 * 4);
+  const std::string header = "ndf,f0,view,offset,plane,sharpness\n";
+  const Finished one = run(header + "-1023,1,60,2,90,1023\n", {"--function", "receiver"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  const double error = std::stod(one.out.substr(one.out.rfind(',') + 1));
+  EXPECT_LT(error, 0.02) << one.out;
+  expect_refused(header + "0,1,60,2,90,1023\n", "in.csv:2: ndf is 0", {"--function", "receiver"});
+  expect_refused(header + "1,1,91,2,90,1023\n", "in.csv:2: view is 91, not in [0, 90]",
+                 {"--function", "receiver"});
 }
 
 TEST_F(SgCommand, RandomRowsAreRepeatableAndFailuresComeWithAReproducer) {

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 #include "asg.glsl"
 #include "sg.glsl"
 #include "sg_diffuse.glsl"
-#if FUNCTION == 14
+#if FUNCTION >= 14
 #include "vsgl_shading.glsl"
 #endif
 
@@ -66,5 +66,8 @@ void main() {
   light.level = -1.0;
   light.power = 1.0;
   result(0, shade_vsgl(make_receiver(surface), light).x);
+#elif FUNCTION == 15
+  Surface surface = Surface(vec3(0.0), vector(4), vector(4), vector(7), vec3(0.0), vec3(argument(10)), argument(11));
+  result(0, shade_sg(make_receiver(surface), 1.0, Sg(vector(0), argument(3))).x);
 #endif
 }

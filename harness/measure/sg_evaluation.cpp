@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/file.h"
+#include "measure/sg_receiver.h"
 #include "measure/sg_shade.h"
 
 namespace vsglbench {
@@ -22,6 +23,7 @@ double banerjee(double complement) { return exact::banerjee_sharpness(std::max(c
 // Columns as the device has them: two axes for the cosine between them.
 size_t device_columns(const SgQuestion& q) {
   if (q.function == SgFunction::shade) return sg_shade::kDeviceColumns;
+  if (q.function == SgFunction::receiver) return sg_receiver::kDeviceColumns;
   const bool axes = q.function == SgFunction::product || q.function == SgFunction::value;
   return axes ? 8 : q.info().columns.size();
 }
@@ -43,6 +45,7 @@ void append_arguments(const SgQuestion& q, std::span<const float> row, std::vect
   if (q.function == SgFunction::product) return append_axes(row[0], row[1], row[2], out);
   if (q.function == SgFunction::value) return append_axes(row[0], 0, row[1], out);
   if (q.function == SgFunction::shade) return sg_shade::append_arguments(row, out);
+  if (q.function == SgFunction::receiver) return sg_receiver::append_arguments(row, out);
   out->insert(out->end(), row.begin(), row.end());
 }
 
@@ -92,6 +95,9 @@ void exact_results(const SgQuestion& q, const float* a, double* out) {
       return;
     case SgFunction::exp:
       out[0] = std::exp(static_cast<double>(a[0]));
+      return;
+    case SgFunction::receiver:
+      out[0] = sg_receiver::integral(a);
       return;
     case SgFunction::shade:  // in error_of_shade(), with its condition
       return;

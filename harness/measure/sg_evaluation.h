@@ -30,6 +30,7 @@ enum class SgFunction {
   exp,
   asg_product_shading,
   shade,
+  receiver,
 };
 
 // How far a value is from the exact one: |difference|; that over |exact|; that over 1+|exact|; or over
@@ -73,7 +74,7 @@ std::string out_of_domain(const SgQuestion& question, std::span<const float> row
 struct SgAnswers {
   size_t results = 1;         // a row
   std::vector<float> values;  // row-major
-  std::vector<double> exact;  // row-major; clamped_cosine and hemisphere by quadrature
+  std::vector<double> exact;  // row-major; clamped_cosine, hemisphere and receiver by quadrature
   std::vector<double> error;  // one a row; NaN where the value is
 };
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "measure/sg_evaluation.h"
+#include "measure/sg_receiver.h"
 #include "measure/sg_shade.h"
 
 namespace vsglbench {
@@ -77,6 +78,15 @@ const std::vector<SgFunctionInfo>& sg_functions() {
        0,
        kInfinity,
        "reflected radiance of a whole VSGL at a whole surface, with the diffuse term by --kernel"},
+      {"receiver",
+       sg_receiver::columns(),
+       {"value"},
+       relative,
+       0,
+       kInfinity,
+       "specular reflection of an SG at an angle from the mirror direction (degrees; plane 0 and 180 in the "
+       "plane of "
+       "incidence, 90 across), against cubature of the exact BRDF; without --in and --random its table"},
   };
   return all;
 }
@@ -115,6 +125,7 @@ exact::DiffuseKernel diffuse_kernel(const std::string& name) {
 
 std::pair<double, double> sg_domain(const SgQuestion& q, const std::string& column) {
   if (q.function == SgFunction::shade) return sg_shade::domain(column);
+  if (q.function == SgFunction::receiver) return sg_receiver::domain(column);
   if (column == "cosine" || column == "axis_x" || column == "axis_y") return {-1, 1};
   if (column == "axis_z") return {0, 1};
   if (column == "complement") return {0x1p-41, 1};
@@ -134,6 +145,10 @@ std::string out_of_domain(const SgQuestion& q, std::span<const float> row) {
   for (size_t k = 0; k < columns.size(); ++k) {
     if (q.function == SgFunction::shade) {
       if (std::string what = sg_shade::out_of_domain(columns[k], row[k]); !what.empty()) return what;
+      continue;
+    }
+    if (q.function == SgFunction::receiver) {
+      if (std::string what = sg_receiver::out_of_domain(columns[k], row[k]); !what.empty()) return what;
       continue;
     }
     const auto [least, most] = sg_domain(q, columns[k]);

@@ -103,7 +103,21 @@ std::vector<double> shade_row(Draw& draw) {
           std::floor(2 * draw.uniform())};
 }
 
+// In the order of sg_receiver::columns(), the SG within a few widths of the lobe.
+std::vector<double> receiver_row(Draw& draw) {
+  const double ndf = draw.uniform() < 0.5 ? draw.within(1e-3f, 1) : -draw.within(1, 65535);
+  const double sharpness = ndf > 0 ? 2 / (ndf * ndf) : -ndf;
+  const double offset = std::min(180 * draw.uniform(), 180 * draw.uniform() / std::sqrt(sharpness));
+  return {ndf,
+          draw.uniform(),
+          89 * draw.uniform(),
+          offset,
+          180 * (2 * draw.uniform() - 1),
+          sharpness * draw.log_uniform(0.01, 100)};
+}
+
 std::vector<double> random_row(const SgQuestion& q, Draw& draw) {
+  if (q.function == SgFunction::receiver) return receiver_row(draw);
   if (q.function == SgFunction::shade) return shade_row(draw);
   if (q.info().columns[0] == "axis_x") return asg_row(draw);
   std::vector<double> row;

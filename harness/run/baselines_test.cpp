@@ -13,6 +13,10 @@ Laboratory& cornell() {
   static Laboratory lab("cornell");
   return lab;
 }
+Laboratory& glossy() {
+  static Laboratory lab("cornell-glossy");
+  return lab;
+}
 Laboratory& ring() {
   static Laboratory lab("ring514");
   return lab;
@@ -49,32 +53,55 @@ double over_seeds(Laboratory& lab, const std::string& method, const Json& own, c
 
 }  // namespace
 
-// [VSGL14 §3.3]: with bias reduction the image comes to that of exact BRDFs, and the cancellation rate to 1.
-TEST(BiasReduction, ComesToExactBrdfsAsLightsGrow) {
+// [VSGL14 §3.3, Fig. 6]: a diffuse lobe has sharpness 0, so that between Lambert surfaces every pair cancels,
+// at the paper's own α = 0.001, too; the image then comes to that of exact BRDFs as lights grow.
+TEST(BiasReduction, CancelsAllDiffusePairs) {
   Laboratory& lab = cornell();
   const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(64, 0));
-  double error = 1e9, rate = -1;
+  double error = 1e9;
   for (const uint32_t lights : {16u, 64u, 256u, 1024u, 4096u}) {
+    FrameParameters p = frame(64, lights);
+    p.bias_reduction = 0.001f;
+    const Errors e = measure_errors(lab.render("mfis", Json::object(), p), exact, lab.mask);
+    std::printf("N %u: SMAPE %.3f %%, bias %+.2f %%\n", lights, e.smape, 100 * *e.bias);
+    EXPECT_EQ(*lab.notes.cancellation_rate, 1);
+    EXPECT_LT(e.smape, error);
+    error = e.smape;
+  }
+  EXPECT_LT(error, 2);
+}
+
+// On glossy surfaces the rate rises with N, since the lights' disks shrink, once their lobes are no wider
+// than the texels' own (at N = 16 they are, and more Lambert receivers cancel), and the image comes to that
+// of exact BRDFs.
+TEST(BiasReduction, ComesToExactBrdfsAsLightsGrow) {
+  Laboratory& lab = glossy();
+  const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(64, 0));
+  double error = 1e9, rate = -1;
+  for (const uint32_t lights : {64u, 256u, 1024u, 4096u}) {
     FrameParameters p = frame(64, lights);
     p.bias_reduction = 0.1f;
     const Errors e = measure_errors(lab.render("mfis", Json::object(), p), exact, lab.mask);
-    std::printf("N %u: SMAPE %.3f %%, bias %+.2f %%, cancellation rate %.4f\n", lights, e.smape, 100 * *e.bias,
-                *lab.notes.cancellation_rate);
+    std::printf("N %u: SMAPE %.3f %%, rRMSE %.3f, bias %+.2f %%, cancellation rate %.4f\n", lights, e.smape,
+                *e.rrmse, 100 * *e.bias, *lab.notes.cancellation_rate);
     EXPECT_LT(e.smape, error);
     EXPECT_GT(*lab.notes.cancellation_rate, rate);
     error = e.smape;
     rate = *lab.notes.cancellation_rate;
   }
-  EXPECT_LT(error, 2);
-  EXPECT_GT(rate, 0.95);
+  EXPECT_LT(error, 7);
+  EXPECT_GT(rate, 0.8);
 }
 
 // Every texel a light of its own: what is left of the SG model is each texel's extent.
-TEST(BiasReduction, OfSingleTexelsIsTheExactBrdf) {
-  Laboratory& lab = cornell();
+class BiasReductionOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BiasReductionOf, SingleTexelsIsTheExactBrdf) {
+  Laboratory& lab = GetParam() == std::string("cornell") ? cornell() : glossy();
   for (const char* shading : {"vsgl16", "vsgl14"}) {
     double previous = 1e9;
     for (const uint32_t rsm : {32u, 64u, 128u}) {
+      if (rsm > 64 && &lab == &glossy()) break;  // seconds
       const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(rsm, 0));
       FrameParameters p = frame(rsm, 0);
       p.shading = {{"shading", shading}};
@@ -85,7 +112,32 @@ TEST(BiasReduction, OfSingleTexelsIsTheExactBrdf) {
       EXPECT_EQ(*lab.notes.cancellation_rate, 1);
       previous = e.smape;
     }
-    EXPECT_LT(previous, 0.2);
+    EXPECT_LT(previous, &lab == &cornell() ? 0.2 : 0.4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, BiasReductionOf, ::testing::Values("cornell", "cornell-glossy"));
+
+// With α the lights that keep their lobes give way to exact BRDFs: all texels come to what is exact.
+TEST(BiasReduction, GrowsWithAlpha) {
+  Laboratory& lab = glossy();
+  const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(32, 0));
+  for (const char* shading : {"vsgl16", "vsgl14"}) {
+    double error = 1e9, rate = -1;
+    for (const float alpha : {1e-6f, 0.001f, 0.01f, 0.1f, 1e6f}) {
+      FrameParameters p = frame(32, 0);
+      p.shading = {{"shading", shading}};
+      p.bias_reduction = alpha;
+      const Errors e = measure_errors(lab.render("all-texels", {{"shading", shading}}, p), exact, lab.mask);
+      std::printf("%s, alpha %g: SMAPE %.3f %%, rRMSE %.4f, bias %+.2f %%, rate %.4f\n", shading, alpha,
+                  e.smape, *e.rrmse, 100 * *e.bias, *lab.notes.cancellation_rate);
+      EXPECT_LE(e.smape, error * 1.001) << alpha;
+      EXPECT_GE(*lab.notes.cancellation_rate, rate) << alpha;
+      error = e.smape;
+      rate = *lab.notes.cancellation_rate;
+    }
+    EXPECT_EQ(rate, 1);
+    EXPECT_LT(error, 2);
   }
 }
 

@@ -36,11 +36,12 @@ class Laboratory {
                Visibility visibility) {
     return render(method, own, {.rsm = rsm, .lights = lights, .visibility = visibility});
   }
-  // Of kWidth × kHeight pixels, whatever `p` says. `notes` and `mask` are of the last one.
+  // Of kWidth × kHeight pixels and importance_lights, whatever `p` says. What is not const below is of the
+  // last one.
   Image render(const std::string& method, const Json& own, FrameParameters p, uint32_t seed = 0) {
     p.width = kWidth;
     p.height = kHeight;
-    p.importance_lights = 256;
+    p.importance_lights = importance_lights;
     const MethodInfo& info = load_method(method, device().info());
     Frame* self = nullptr;
     Frame frame(stage, info, resolve_parameters(info, own), p,
@@ -49,6 +50,9 @@ class Laboratory {
     frame.render(seed);
     notes = frame.shading_notes();
     mask = frame.surface_mask();
+    importance = frame.importance();
+    camera = frame.camera();
+    light = frame.light();
     return frame.indirect();
   }
 
@@ -72,8 +76,11 @@ class Laboratory {
   const Tracer tracer;
   KernelLibrary kernels;
   Stage stage;
+  uint32_t importance_lights = 256;
   Mask mask;
   ShadingNotes notes;
+  std::vector<float> importance;  // as Frame::importance()
+  gpu::Emitter camera, light;
 
  private:
   std::vector<uint32_t> bits(Frame& frame, const std::vector<LightPoint>& points) {

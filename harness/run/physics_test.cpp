@@ -2,8 +2,13 @@
 // brute force. Small frames; RSMs of 32² to 128².
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "reference/brdf.h"
 #include "run/laboratory.h"
 #include "scene/surface.h"
+#include "shaders/shading_exact.h"
+#include "stability/planted_tree.h"
 
 using namespace vsglbench;
 
@@ -90,4 +95,66 @@ TEST(Rasteriser, SeesWhatRaysSee) {
   std::printf("%zu of %zu pixels differ\n", different, compared);
   EXPECT_GT(compared, kWidth * kHeight / 2);
   EXPECT_LT(static_cast<double>(different), 0.01 * kWidth * kHeight);
+}
+
+// What SG shading costs by itself: every texel a light, by its lobes and by its exact BRDF, without
+// visibility.
+namespace {
+
+Errors of_lobes(Laboratory& lab, const char* shading) {
+  const Image exact = lab.render("all-texels", {{"shading", "exact"}}, 64, 0, Visibility::none);
+  FrameParameters p{.rsm = 64, .visibility = Visibility::none};
+  p.shading = {{"shading", shading}};
+  const Errors e = measure_errors(lab.render("all-texels", {{"shading", shading}}, p), exact, lab.mask);
+  std::printf("%s, %s: SMAPE %.2f %%, rRMSE %.3f, bias %+.2f %%\n", lab.scene.name.c_str(), shading, e.smape,
+              *e.rrmse, 100 * *e.bias);
+  return e;
+}
+
+}  // namespace
+
+TEST(Lobes, OfAGlossyRoomHaveTheTabledErrors) {
+  Laboratory glossy("cornell-glossy");
+  const Errors vsgl16 = of_lobes(glossy, "vsgl16"), vsgl14 = of_lobes(glossy, "vsgl14");
+  EXPECT_NEAR(*vsgl16.rrmse, 0.344, 0.01);
+  EXPECT_NEAR(*vsgl16.bias, -0.0757, 0.003);
+  EXPECT_NEAR(*vsgl14.rrmse, 0.307, 0.01);
+  EXPECT_NEAR(*vsgl14.bias, -0.0367, 0.003);
+  // The receiver's lobe turned by 90 degrees.
+  const PlantedTree tree;
+  tree.edit_shaders([](std::string text) {
+    const std::string peak = "r.peak = ndf_peak(s.ndf);";
+    const size_t at = text.find(peak);
+    return at == std::string::npos
+               ? text
+               : text.replace(at, peak.size(),
+                              peak + " float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;");
+  });
+  Laboratory turned("cornell-glossy");
+  EXPECT_GT(*of_lobes(turned, "vsgl16").rrmse, 2 * *vsgl16.rrmse);
+  EXPECT_GT(*of_lobes(turned, "vsgl14").rrmse, 2 * *vsgl14.rrmse);
+}
+
+// The BRDF of the oracles and that of the reference were written apart.
+TEST(Brdfs, OfOraclesAndReferenceAgree) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const auto vector = [&] { return glm::vec3(uniform(random), uniform(random), uniform(random)); };
+  const auto direction = [&] { return glm::normalize(2.0f * vector() - 1.0f); };
+  int lit = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Surface s;
+    s.normal = direction();
+    s.geometric_normal = glm::normalize(s.normal + 0.3f * direction());
+    s.diffuse = vector();
+    s.f0 = vector();
+    s.ndf = uniform(random) < 0.5f ? 0.05f + 0.95f * uniform(random) : -std::exp(7 * uniform(random));
+    const glm::vec3 view = glm::normalize(s.normal + 0.95f * direction()), l = direction();
+    const exact::Surface e{glm::dvec3(0), s.normal, s.geometric_normal, view, s.diffuse, s.f0, s.ndf};
+    const double expected = exact::brdf_cosine(e, l).x, value = Brdf(s, view).f(l).x * glm::dot(s.normal, l);
+    if (expected == 0) continue;
+    ++lit;
+    ASSERT_NEAR(value / expected, 1, 1e-3) << i << " ndf " << s.ndf;
+  }
+  EXPECT_GT(lit, 5000);
 }

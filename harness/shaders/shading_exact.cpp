@@ -1,12 +1,8 @@
 #include "shaders/shading_exact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <queue>
-#include <span>
 
 namespace vsglbench::exact {
 namespace {
@@ -35,18 +31,6 @@ double masking_alpha(double ndf) { return ndf > 0 ? ndf : std::sqrt(2 / (2 - ndf
 // The normal distribution as an SG: its sharpness, GGX 2/α², Phong n, and its peak [VSGL15s App. A].
 double ndf_sharpness(double ndf) { return ndf > 0 ? 2 / square(ndf) : -ndf; }
 double ndf_peak(double ndf) { return ndf > 0 ? 1 / (pi * square(ndf)) : (2 - ndf) / (2 * pi); }
-
-double ndf_value(double ndf, const dvec3& n, const dvec3& h) {
-  const dvec3 x = glm::cross(n, h);
-  const double sine2 = std::min(glm::dot(x, x), 1.0);
-  if (ndf > 0) return square(ndf) / (pi * square(sine2 + square(ndf) * (1 - sine2)));
-  return ndf_peak(ndf) * std::exp(-0.5 * ndf * std::log1p(-sine2));
-}
-
-dvec3 unit_or(const dvec3& v, const dvec3& fallback) {
-  const double length = glm::length(v);
-  return length > 1e-15 ? v / length : fallback;
-}
 
 dvec3 reflect(const dvec3& view, const dvec3& n) { return 2 * glm::dot(view, n) * n - view; }
 
@@ -141,106 +125,19 @@ dvec3 shade_vsgl14(const Surface& s, const gpu::Vsgl& light, const VsglShading& 
   return sum / (pi * to.radius2());
 }
 
-Surface surface_of(const gpu::Vpl& light) {
-  return {light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
-          light.f0,       light.ndf};
-}
-
 // ρ(ω) = Φ f(x2) f(x1) cos cos [VSGL14 §2].
 dvec3 rho(const Surface& s, const gpu::Vpl& light, const dvec3& direction) {
   return dvec3(light.flux) * brdf_cosine(surface_of(light), -direction) * brdf_cosine(s, direction);
 }
 
-struct Cone {
-  dvec3 axis;
-  double half_angle;
-  dvec3 x, y;
-  dvec3 direction(double theta, double phi) const {
-    return std::cos(theta) * axis + std::sin(theta) * (std::cos(phi) * x + std::sin(phi) * y);
-  }
-};
-
-struct Peak {
-  dvec3 direction;
-  double width;  // rad
-};
-
-// Of a BRDF's reflected lobe, and its lesser width: that of the half vector's SG times 2 l·h. `sign` -1: for
-// directions towards the surface.
-Peak peak_of(const Surface& s, double sign) {
-  const double nv = std::max(glm::dot(s.normal, s.view), 0.05);
-  return {sign * reflect(s.view, s.normal), 2 * nv / std::sqrt(ndf_sharpness(s.ndf))};
-}
-
-// The rectangle of half widths (a, b) about (theta, phi).
-struct Cell {
-  double theta, phi, a, b;
-  dvec3 value{0};
-  double error = 0;
-  bool operator<(const Cell& other) const { return error < other.error; }
-  std::array<Cell, 4> quarters() const {
-    const double c = a / 2, d = b / 2;
-    return {Cell{theta - c, phi - d, c, d}, Cell{theta - c, phi + d, c, d}, Cell{theta + c, phi - d, c, d},
-            Cell{theta + c, phi + d, c, d}};
-  }
-};
-
-// ∫ over a cell by the 17 points of Genz and Malik's rule of degree 7; its error by theirs of degree 5.
-template <class Function>
-void evaluate(Cell& cell, const Function& f) {
-  static const double l2 = std::sqrt(9.0 / 70), l3 = std::sqrt(9.0 / 10), l5 = std::sqrt(9.0 / 19);
-  const auto at = [&](double u, double v) { return f(cell.theta + u * cell.a, cell.phi + v * cell.b); };
-  const auto cross = [&](double l) { return at(l, 0) + at(-l, 0) + at(0, l) + at(0, -l); };
-  const auto corners = [&](double l) { return at(l, l) + at(-l, l) + at(l, -l) + at(-l, -l); };
-  const dvec3 centre = at(0, 0), near = cross(l2), far = cross(l3), diagonal = corners(l3);
-  const double area = 4 * cell.a * cell.b;
-  cell.value = area * (-3816 / 19683.0 * centre + 980 / 6561.0 * near + 1020 / 19683.0 * far +
-                       200 / 19683.0 * diagonal + 6859 / 78732.0 * corners(l5));
-  const dvec3 fifth =
-      area * (-971 / 729.0 * centre + 245 / 486.0 * near + 65 / 1458.0 * far + 25 / 729.0 * diagonal);
-  cell.error = glm::length(cell.value - fifth);
-}
-
-// ∫ over the cone of f(ω) dω: cells are quartered where a peak could hide in one, then the worst of them.
-template <class Function>
-Integral integrate(const Cone& cone, std::span<const Peak> peaks, double relative_error, const Function& f) {
-  constexpr size_t kMostCells = 200000 / 17;
-  const auto integrand = [&](double theta, double phi) {
-    return std::sin(theta) * f(cone.direction(theta, phi));
-  };
-  const auto may_hide = [&](const Cell& c, const Peak& peak) {
-    const double extent = c.a + c.b * std::sin(std::min(c.theta + c.a, pi / 2));
-    const double away = glm::length(cone.direction(c.theta, c.phi) - peak.direction);
-    return extent > peak.width && away < extent + 4 * peak.width;
-  };
-  std::priority_queue<Cell> cells;
-  dvec3 value(0);
-  double error = 0;
-  const std::function<void(Cell)> add = [&](Cell cell) {
-    if (std::ranges::any_of(peaks, [&](const Peak& peak) { return may_hide(cell, peak); })) {
-      for (const Cell& quarter : cell.quarters()) add(quarter);
-      return;
-    }
-    evaluate(cell, integrand);
-    value += cell.value;
-    error += cell.error;
-    cells.push(cell);
-  };
-  constexpr int kRows = 6, kColumns = 16;
-  const double a = cone.half_angle / kRows / 2, b = pi / kColumns;
-  for (int i = 0; i < kRows * kColumns; ++i)
-    add({(2 * (i / kColumns) + 1) * a, (2 * (i % kColumns) + 1) * b, a, b});
-  while (cells.size() < kMostCells && error > relative_error * glm::length(value)) {
-    const Cell worst = cells.top();
-    cells.pop();
-    value -= worst.value;
-    error -= worst.error;
-    for (const Cell& quarter : worst.quarters()) add(quarter);
-  }
-  return {value, error};
-}
-
 }  // namespace
+
+double ndf_value(double ndf, const dvec3& n, const dvec3& h) {
+  const dvec3 x = glm::cross(n, h);
+  const double sine2 = std::min(glm::dot(x, x), 1.0);
+  if (ndf > 0) return square(ndf) / (pi * square(sine2 + square(ndf) * (1 - sine2)));
+  return ndf_peak(ndf) * std::exp(-0.5 * ndf * std::log1p(-sine2));
+}
 
 dvec3 brdf_cosine(const Surface& s, const dvec3& l) {
   const double nl = glm::dot(s.normal, l), nv = glm::dot(s.normal, s.view);
@@ -248,6 +145,16 @@ dvec3 brdf_cosine(const Surface& s, const dvec3& l) {
   const dvec3 h = unit_or(l + s.view, s.normal);
   const double specular = ndf_value(s.ndf, s.normal, h) * smith(nl, nv, masking_alpha(s.ndf));
   return (s.diffuse / pi + specular * fresnel(s.f0, glm::dot(l, h))) * nl;
+}
+
+Peak reflected_lobe(const Surface& s) {
+  const double nv = std::max(glm::dot(s.normal, s.view), 0.05);
+  return {reflect(s.view, s.normal), 2 * nv / std::sqrt(ndf_sharpness(s.ndf))};
+}
+
+Surface surface_of(const gpu::Vpl& light) {
+  return {light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
+          light.f0,       light.ndf};
 }
 
 dvec3 shade_vsgl(const Surface& s, const gpu::Vsgl& light, const VsglShading& shading) {
@@ -285,12 +192,10 @@ Integral shade_vsl(const Surface& s, const gpu::Vpl& light, double relative_erro
   if (light.power <= 0 || radius <= 0) return {};
   const dvec3 to_light = dvec3(light.position) - s.position;
   const double distance = glm::length(to_light);
-  const Surface emitter = surface_of(light);
-  Cone cone{unit_or(to_light, s.normal), distance > radius ? std::asin(radius / distance) : pi / 2, {}, {}};
-  cone.x =
-      glm::normalize(glm::cross(cone.axis, std::abs(cone.axis.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
-  cone.y = glm::cross(cone.axis, cone.x);
-  const Peak peaks[] = {peak_of(s, 1), peak_of(emitter, -1)};
+  const Cone cone{unit_or(to_light, s.normal), distance > radius ? std::asin(radius / distance) : pi / 2};
+  Peak emitter = reflected_lobe(surface_of(light));
+  emitter.direction = -emitter.direction;
+  const Peak peaks[] = {reflected_lobe(s), emitter};
   Integral integral =
       integrate(cone, peaks, relative_error, [&](const dvec3& l) { return rho(s, light, l); });
   integral.value /= pi * square(radius);

@@ -5,6 +5,7 @@
 // Walter et al. 2007, Heitz 2014 (masking), Genz and Malik 1980 (quadrature).
 #pragma once
 
+#include "shaders/cubature.h"
 #include "shaders/sg_exact.h"
 #include "shaders/types.h"
 
@@ -21,9 +22,19 @@ struct Surface {
   double ndf = 1;  // > 0: GGX alpha; < 0: minus the Phong exponent
 };
 
+// D(h) of the surface's distribution, 1/sr; h is unit.
+double ndf_value(double ndf, const glm::dvec3& normal, const glm::dvec3& h);
+
 // f(l,v) n·l of Lambert and one microfacet lobe, 1/sr; zero unless both directions are above the shading
 // normal's horizon and l above the face's.
 glm::dvec3 brdf_cosine(const Surface& surface, const glm::dvec3& l);
+
+// The mirror direction, where the specular lobe is large, and the lesser width of the lobe there: that of the
+// half vector's distribution times 2 l·h.
+Peak reflected_lobe(const Surface& surface);
+
+// The surface that a point light stands on, seen from the primary light.
+Surface surface_of(const gpu::Vpl& light);
 
 // Of a VSGL, in the order of GLSL's SHADING_MODEL: products of SGs [MFIS16 App. C], or triple products with
 // the disk that the light is seen as [VSGL14 §3.1].
@@ -57,10 +68,6 @@ glm::dvec3 shade_cancelled(const Surface& surface, const gpu::Vsgl& light, const
 // Φ f(x2) f(x1) cos cos / d² [VSGL14 Eq. 1]; 0 for a light of no power, or at the surface itself.
 glm::dvec3 shade_vpl(const Surface& surface, const gpu::Vpl& light);
 
-struct Integral {
-  glm::dvec3 value{0};
-  double error = 0;  // bound on |error| as the rule sees it
-};
 // A virtual spherical light's ∫ρ(ω)V(ω)dω / (πr²) [VSGL14 Eq. 2] over the cone of half angle asin(r/d), π/2
 // inside the sphere, by adaptive quadrature to `relative_error`, or as near as 200 thousand evaluations come.
 // 0 for a light of no power or radius.

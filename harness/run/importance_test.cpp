@@ -1,0 +1,137 @@
+// The PDF on the RSM against the integral that it approximates: what each texel's light is worth to the eye
+// with exact BRDFs at both ends, Σ over pixels of Φ f f cos cos/d² over their number [VSGL14 §3; Ritschel et
+// al. 2011].
+#include <gtest/gtest.h>
+
+#include "run/laboratory.h"
+#include "shaders/shading_exact.h"
+#include "stability/planted_tree.h"
+
+using namespace vsglbench;
+using glm::dvec3;
+
+namespace {
+
+constexpr uint32_t kRsm = 16;
+constexpr double kTolerance = 0.01;  // of each figure of the table
+
+// What the emitter of a half sees at texel i, as a light of the flux that the emitter gives it.
+std::vector<gpu::Vpl> texels_of(const DeferredTargets& targets, const gpu::Emitter& emitter) {
+  std::array<std::vector<glm::vec4>, 5> maps;
+  for (size_t m = 0; m < maps.size(); ++m) maps[m] = download_map(targets.maps[m]);
+  const double area = 4.0 * emitter.extent.x * emitter.extent.y / (double(emitter.width) * emitter.height);
+  std::vector<gpu::Vpl> texels(maps[0].size());
+  for (uint32_t i = 0; i < texels.size(); ++i) {
+    if (!(maps[0][i].w > 0)) continue;
+    gpu::Vpl& t = texels[i];
+    t.position = glm::vec3(maps[0][i]);
+    t.normal = glm::vec3(maps[1][i]);
+    t.ndf = maps[1][i].w;
+    t.geometric_normal = glm::vec3(maps[2][i]);
+    t.diffuse = glm::vec3(maps[3][i]);
+    t.f0 = glm::vec3(maps[4][i]);
+    t.incident = glm::normalize(emitter.position - t.position);
+    const double x = (2 * (i % emitter.width + 0.5) / emitter.width - 1) * emitter.extent.x;
+    const double y = (1 - 2 * (i / emitter.width + 0.5) / emitter.height) * emitter.extent.y;
+    const double cosine3 = std::pow(1 + x * x + y * y, -1.5);
+    t.flux = emitter.importance != 0 ? glm::vec3(1 / (float(emitter.width) * float(emitter.height)))
+                                     : emitter.power * static_cast<float>(area * cosine3);
+    t.power = 1;
+  }
+  return texels;
+}
+
+// One integral for each texel of the RSM; computed once, since nothing that is planted here changes what is
+// seen.
+const std::vector<double>& integrals(Laboratory& lab) {
+  static const std::vector<double> all = [&] {
+    const auto pixels =
+        texels_of(lab.stage.targets(Half::gbuffer, Laboratory::kWidth, Laboratory::kHeight), lab.camera);
+    std::vector<double> out;
+    for (const gpu::Vpl& texel : texels_of(lab.stage.targets(Half::rsm, kRsm, kRsm), lab.light)) {
+      dvec3 radiance(0);
+      if (texel.power > 0) {
+        for (const gpu::Vpl& pixel : pixels) radiance += exact::shade_vpl(exact::surface_of(texel), pixel);
+      }
+      out.push_back(glm::dot(dvec3(texel.flux) * radiance, dvec3(0.2126, 0.7152, 0.0722)));
+    }
+    return out;
+  }();
+  return all;
+}
+
+// Bias and root mean square over the mean of the integral; the mean of |x-r|/((x+r)/2).
+struct Difference {
+  double bias = 0, rrmse = 0, smape = 0;
+  double largest_change(const Difference& o) const {
+    return std::max({std::abs(bias - o.bias), std::abs(rrmse - o.rrmse), std::abs(smape - o.smape)});
+  }
+};
+
+// The PDF by `importance` with this many lights on the G-buffer, against the integral.
+Difference difference(const char* importance, uint32_t lights) {
+  Laboratory lab("cornell-glossy");
+  lab.importance_lights = lights;
+  lab.render("mfis", Json::object(),
+             {.rsm = kRsm,
+              .lights = 16,
+              .visibility = Visibility::none,
+              .importance = parse_importance(importance)});
+  const std::vector<double>& exact = integrals(lab);
+  const auto count = static_cast<double>(exact.size());
+  double sum = 0, integral = 0, square = 0, symmetric = 0;
+  for (size_t i = 0; i < exact.size(); ++i) {
+    const double p = lab.importance[i], r = exact[i];
+    sum += p;
+    integral += r;
+    square += (p - r) * (p - r);
+    symmetric += p + r > 0 ? 2 * std::abs(p - r) / (p + r) : 0;
+  }
+  const Difference d{sum / integral - 1, std::sqrt(square / count) / (integral / count), symmetric / count};
+  std::printf("importance %s, %u lights: bias %+.4f, rRMSE %.4f, SMAPE %.4f\n", importance, lights, d.bias,
+              d.rrmse, d.smape);
+  return d;
+}
+
+}  // namespace
+
+// Tabled as measured; VPLs sample the integral, VSGLs have their lobes' errors besides.
+TEST(ImportanceOracle, ThePdfIsTheIntegral) {
+  struct Row {
+    const char* importance;
+    uint32_t lights;
+    Difference tabled;
+  };
+  for (const Row& row : {Row{"vpl", 256, {-0.0169, 0.6945, 0.1729}},
+                         {"vpl", 4096, {0.0079, 0.0816, 0.0173}},
+                         {"vsgl", 256, {-0.2422, 1.0684, 0.2405}},
+                         {"vsgl", 4096, {-0.1186, 0.5095, 0.1511}}}) {
+    EXPECT_LT(difference(row.importance, row.lights).largest_change(row.tabled), kTolerance)
+        << row.importance << " " << row.lights;
+  }
+}
+
+TEST(ImportanceOracle, SeesPlantedFaults) {
+  struct Fault {
+    const char *importance, *file, *text, *in_its_place;
+  };
+  for (const Fault& f :
+       {Fault{"vsgl", "VSGLBENCH_RECEIVER_GLSL", "r.peak = ndf_peak(s.ndf);",
+              "r.peak = ndf_peak(s.ndf); float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;"},
+        Fault{"vpl", "VSGLBENCH_BRDF_GLSL", "fresnel(s.f0, dot(l, h))) * nl;", "fresnel(s.f0, dot(l, h)));"},
+        Fault{"vsgl", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine;", "r.alpha);"},
+        Fault{"vpl", "// BRSM:", "luminance(t.flux * sum)", "2.0 * luminance(t.flux * sum)"}}) {
+    const uint32_t lights = f.importance == std::string("vsgl") ? 4096 : 256;
+    const Difference sound = difference(f.importance, lights);
+    const PlantedTree tree;
+    size_t planted = 0;
+    tree.edit_shaders([&](std::string text) {
+      const size_t at = text.find(f.text);
+      if (at == std::string::npos || text.find(f.file) == std::string::npos) return text;
+      ++planted;
+      return text.replace(at, std::string(f.text).size(), f.in_its_place);
+    });
+    ASSERT_EQ(planted, 1u) << f.text;
+    EXPECT_GT(difference(f.importance, lights).largest_change(sound), 2 * kTolerance) << f.in_its_place;
+  }
+}
