@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "measure/approximation_cases.h"
 #include "measure/sg_evaluation.h"
@@ -217,6 +218,34 @@ std::vector<ErrorRow> disk_errors(ShadingProbe& probe) {
       });
 }
 
+// A light that radiates alike in all directions is an SG of sharpness d²/σ²: here as sharp as the receiver's lobe, on the
+// lobe's axis and a width of the lobe off it.
+std::vector<ErrorRow> filtered_errors(ShadingProbe& probe) {
+  std::vector<PairRow> rows;
+  for (const float ndf : {-30.0f, -1023.0f, 0.1f, 0.3f, 1.0f}) {
+    const double width = std::min(2 / std::sqrt(sharpness_of(ndf)), radians(30));
+    for (const char* place : {"on axis", "in plane, towards", "across"}) {
+      PairRow row{fmt::format("{} {}", ndf_name(ndf), place)};
+      for (size_t k = 0; k < kViewAngles; ++k) {
+        const double angle = radians(sg_receiver::kViews[k]);
+        ShadingPair& pair = row.pairs[k] = mirror_pair({"", 0, 1, ndf}, angle, 1 / std::sqrt(sharpness_of(ndf)));
+        const dvec3 off = place[0] == 'o'   ? dvec3(0)
+                          : place[0] == 'i' ? -std::tan(width) * away_at(angle)
+                                            : std::tan(width * std::cos(angle)) * across();
+        pair.light.mean = glm::vec3(glm::normalize(way_at(angle) + off));
+        pair.light.specular = glm::vec3(1);
+      }
+      rows.push_back(row);
+    }
+  }
+  return errors_of(probe, rows, ProbeMode::vsgl, {{"RECEIVER_LOBE", "1"}},
+                   [](const exact::Surface& s, const ShadingPair& pair) {
+                     const double sigma2 = pair.light.variance;
+                     const exact::Incoming sg = exact::incoming_sg(dvec3(pair.light.mean), 1 / sigma2);
+                     return exact::reflected_radiance(s, sg, 1e-4).value.x / (2 * std::numbers::pi * sigma2);
+                   });
+}
+
 std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
   std::vector<PairRow> rows;
   for (const Material& receiver : {kLambert, kRough, kPhong}) {
@@ -242,13 +271,15 @@ std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
 }  // namespace
 
 const std::vector<std::string>& oracle_names() {
-  static const std::vector<std::string> names = {"receiver", "emitter", "gaussian", "disk", "cancelled"};
+  static const std::vector<std::string> names = {"receiver", "filtered", "emitter",
+                                                 "gaussian", "disk",     "cancelled"};
   return names;
 }
 
 std::vector<ErrorRow> approximation_errors(Device& device, const std::string& oracle) {
   if (oracle == "receiver") return receiver_errors(device);
   ShadingProbe probe(device);
+  if (oracle == "filtered") return filtered_errors(probe);
   if (oracle == "emitter") return emitter_errors(probe);
   if (oracle == "gaussian") return gaussian_errors(probe);
   return oracle == "disk" ? disk_errors(probe) : cancelled_errors(probe);
