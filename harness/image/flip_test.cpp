@@ -199,6 +199,29 @@ TEST(Flip, EveryPixelIsThatOfTheFormulas) {
   }
 }
 
+// What is darker than the median differs most at the last exposure, what is brightest at the first.
+TEST(Flip, TheWorstExposureCounts) {
+  Image r(40, 30, glm::vec3(1)), x = r;
+  for (uint32_t y = 0; y < 30; ++y) {
+    for (uint32_t u = 0; u < 12; ++u) {
+      r.at(u, y) = glm::vec3(1.0f / 32);
+      x.at(u, y) = glm::vec3(1.5f / 32);
+    }
+    for (uint32_t u = 34; u < 40; ++u) {
+      r.at(u, y) = glm::vec3(16);
+      x.at(u, y) = glm::vec3(12);
+    }
+  }
+  const FlipExposures all = *flip_exposures(r);
+  ASSERT_EQ(all.count, 4u);
+  const Plane map = FlipReference(r, {}, all).error_map(x);
+  for (const auto& [u, e] : {std::pair{0, 3u}, {39, 0u}}) {
+    const FlipExposures one{all.exposure(e), all.exposure(e), 2};
+    EXPECT_NEAR(map.values[15 * 40 + u], oracle(x, r, u, 15, one), 3e-4) << u;
+    EXPECT_NEAR(map.values[15 * 40 + u], oracle(x, r, u, 15, all), 3e-4) << u;
+  }
+}
+
 TEST(Flip, AnImageAgainstItselfHasNoError) {
   const Image r = scene(1);
   const auto flip = measure_flip(r, r);
@@ -274,6 +297,9 @@ TEST(Flip, NothingBecomesNaN) {
   Image wide(6, 6, glm::vec3(1e-30f));  // 166 stops: the scale alone is 2¹⁰⁰
   wide.at(2, 2) = glm::vec3(1e20f);
   EXPECT_EQ(measure_flip(wide, wide)->mean, 0);
+  // Scaled by 2⁶⁴ both are white, though the square of one is beyond a float.
+  const Image bright(6, 6, glm::vec3(1)), brighter(6, 6, glm::vec3(1.05f));
+  EXPECT_EQ(FlipReference(bright, {}, {64.08, 64.08, 2}).compare(brighter).mean, 0);
   x.at(0, 0).x = std::nanf("");
   EXPECT_THROW(measure_flip(x, r), Error);
   EXPECT_THROW(measure_flip(Image(3, 3), r), Error);
