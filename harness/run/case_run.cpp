@@ -10,8 +10,8 @@
 namespace vsglbench {
 namespace {
 
-// Pixels times exposures that take FLIP about a tenth of a second: at 480×272, three exposures.
-constexpr uint64_t kFlipPixelsOfEverySeed = 400'000;
+// Pixels times exposures that take FLIP about a tenth of a second: at 480×272, four exposures.
+constexpr uint64_t kFlipPixelsOfEverySeed = 600'000;
 
 void state_exposures(const FlipExposures& exposures, MetricResult* flip) {
   flip->constants["start_exposure"] = exposures.start;
