@@ -22,6 +22,7 @@ void add_code_size_command(CLI::App& app, CommandResult* result);
 void add_kernels_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_figure_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
+void add_metrics_command(CLI::App& app, CommandResult* result);
 void add_sg_command(CLI::App& app, CommandResult* result);
 void add_stability_command(CLI::App& app, CommandResult* result);
 

@@ -88,6 +88,7 @@ int main(int argc, char** argv) {
   add_code_size_command(app, &result);
   add_kernels_command(app, arguments, &result);
   add_lights_command(app, arguments, &result);
+  add_metrics_command(app, &result);
   add_sg_command(app, &result);
   add_figure_command(app, arguments, &result);
   add_stability_command(app, &result);

@@ -30,7 +30,7 @@ void compute(const ReferenceOptions& options) {
   bool cached = false;
   const ReferenceResult r = load_or_compute(scene, parameters, &cached);
   const std::string stem = file_name(scene.name) + (options.no_occlusion ? ".no-occlusion" : "");
-  write_exr(options.out / (stem + ".reference.exr"), r.mean);
+  write_exr(options.out / (stem + ".reference.exr"), r.mean, r.mask);
   write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
   fmt::print(
       "{}{}: {} triangles, {} samples, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE, hash {}\n",

@@ -14,6 +14,7 @@ constexpr glm::u8vec3 kPaper{22, 23, 27}, kPanel{32, 33, 39}, kInk{238, 238, 240
 constexpr uint32_t kMargin = 24, kGap = 20, kScale = 2, kLine = (kGlyphHeight + 2) * kScale, kBetween = 6;
 constexpr uint32_t kTitleScale = 3, kTitleHeight = (kGlyphHeight + 6) * kTitleScale;
 constexpr uint32_t kMinTile = 400, kMinHeight = 180, kMaxTile = 960, kMaxWidth = 2048, kMaxColumns = 4;
+constexpr uint32_t kDetailLines = 2;
 
 void fill(Bitmap& bitmap, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, glm::u8vec3 color) {
   for (uint32_t y = y0; y < std::min(y0 + height, bitmap.height); ++y) {
@@ -180,7 +181,7 @@ Bitmap contact_sheet(const ContactSheet& sheet) {
   const std::vector<Cell> cells = make_cells(sheet, size);
   const uint32_t columns = column_count(sheet, size.width);
   const uint32_t rows = (static_cast<uint32_t>(cells.size()) + columns - 1) / columns;
-  const uint32_t cell_height = 2 * kLine + 2 * size.height + kBetween;
+  const uint32_t head = (1 + kDetailLines) * kLine, cell_height = head + 2 * size.height + kBetween;
 
   Bitmap out(2 * kMargin + columns * (size.width + kGap) - kGap,
              2 * kMargin + kTitleHeight + rows * (cell_height + kGap) - kGap);
@@ -191,9 +192,11 @@ Bitmap contact_sheet(const ContactSheet& sheet) {
     const uint32_t x = kMargin + i % columns * (size.width + kGap);
     const uint32_t y = kMargin + kTitleHeight + i / columns * (cell_height + kGap);
     draw_text(out, x, y, fit_text(cells[i].caption, size.width, kScale), kInk, kScale);
-    draw_text(out, x, y + kLine, fit_text(cells[i].detail, size.width, kScale), kFaint, kScale);
-    blit(out, x, y + 2 * kLine, cells[i].upper);
-    blit(out, x, y + 2 * kLine + size.height + kBetween, cells[i].lower);
+    const std::vector<std::string> detail = wrap_text(cells[i].detail, size.width, kScale);
+    for (uint32_t line = 0; line < std::min<size_t>(detail.size(), kDetailLines); ++line)
+      draw_text(out, x, y + (1 + line) * kLine, detail[line], kFaint, kScale);
+    blit(out, x, y + head, cells[i].upper);
+    blit(out, x, y + head + size.height + kBetween, cells[i].lower);
   }
   return out;
 }

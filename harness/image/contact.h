@@ -13,14 +13,14 @@ namespace vsglbench {
 // One method's column. Without an image (a failed or skipped case) the tile shows `detail` instead.
 struct ContactEntry {
   std::string caption;  // first line, such as "mfis  N=256"
-  std::string detail;   // second line, such as "SMAPE 12.3 %   bias -0.4 %"
+  std::string detail;   // two further lines, such as "SMAPE 12.3 %   bias -0.4 %"; broken at spaces
   std::optional<Image> image;
   std::optional<Image> reference;  // where the case has another reference than the sheet's
 };
 
 struct ContactSheet {
   std::string title;
-  std::string reference_detail;  // second line under "reference"
+  std::string reference_detail;  // the same under "reference"
   Image reference;
   Mask mask;              // empty: every pixel
   float exposure = 1;     // one for all tiles: auto_exposure(reference, mask)

@@ -105,6 +105,17 @@ TEST(Contact, FailedCasesAndBadPixelsAreShown) {
   EXPECT_EQ(count_color(b, {255, 0, 255}), 2u);  // in the image and in the error map
 }
 
+TEST(Contact, ALongDetailGoesOnInASecondLine) {
+  ContactSheet s = sheet(480, 272, 1);
+  const Bitmap one = contact_sheet(s);
+  s.entries[0].detail = "SMAPE 24.8% lit 21.0% RMSE 0.01551 bias";  // 39 signs: as many as fit
+  const Bitmap full = contact_sheet(s);
+  s.entries[0].detail += " -19.9% FLIP 0.123";
+  const Bitmap two = contact_sheet(s);
+  EXPECT_EQ(two.height, one.height);
+  EXPECT_GT(lit_pixels(two), lit_pixels(full));
+}
+
 TEST(Contact, AnEntryMayHaveItsOwnReference) {
   ContactSheet s = sheet(480, 272, 1);
   s.entries[0].reference = s.entries[0].image;

@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/error.h"
@@ -190,6 +191,19 @@ ExrLayers decode(const std::vector<uint8_t>& bytes) {
   return layers;
 }
 
+// "Y, Z, left.RGB", without what a terminal would obey.
+std::string channels_of(const ExrLayers& layers) {
+  constexpr size_t kMostShown = 8;
+  std::vector<std::string> names;
+  for (const auto& [name, values] : layers.scalars) names.push_back(name);
+  for (const auto& [name, image] : layers.colors) names.push_back(name + ".RGB");
+  std::string out;
+  for (size_t i = 0; i < std::min(names.size(), kMostShown); ++i) out += (i ? ", " : "") + names[i];
+  if (names.size() > kMostShown) out += ", …";
+  for (char& c : out) c = static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+  return out.empty() ? "none" : out;
+}
+
 // The library's messages may run over several lines.
 std::string one_line(std::string message) {
   for (char& c : message) c = c == '\n' ? ' ' : c;
@@ -200,6 +214,15 @@ std::string one_line(std::string message) {
 
 void write_exr(const fs::path& path, const Image& image) {
   write_exr(path, ExrLayers{image.width, image.height, {{"", image}}, {}, {}});
+}
+
+void write_exr(const fs::path& path, const Image& image, const std::vector<uint8_t>& coverage) {
+  std::vector<float> alpha(image.pixels.size(), 1);
+  if (!coverage.empty()) {
+    alpha.assign(coverage.size(), 0);
+    for (size_t i = 0; i < coverage.size(); ++i) alpha[i] = coverage[i] ? 1.0f : 0.0f;
+  }
+  write_exr(path, ExrLayers{image.width, image.height, {{"", image}}, {{"A", alpha}}, {}});
 }
 
 void write_exr(const fs::path& path, const ExrLayers& layers) {
@@ -225,7 +248,8 @@ Image read_exr(const fs::path& path) {
   ExrLayers layers = read_exr_layers(path);
   const auto it = layers.colors.find("");
   if (it == layers.colors.end()) {
-    throw fail(ErrorKind::output, "{}: lacks the channels R, G and B", path.string());
+    throw fail(ErrorKind::output, "{}: lacks the channels R, G and B; it has {}", path.string(),
+               channels_of(layers));
   }
   return std::move(it->second);
 }

@@ -22,10 +22,14 @@ struct ExrLayers {
 
 // Throws Error(output) when the image is empty, a layer's size differs from the file's, or the disk refuses.
 void write_exr(const std::filesystem::path& path, const Image& image);
+// With channel A: 1 where `coverage` is not 0 (the pixel counts in the errors), 0 elsewhere; 1 everywhere for
+// an empty one. Colours are not multiplied by it.
+void write_exr(const std::filesystem::path& path, const Image& image, const std::vector<uint8_t>& coverage);
 void write_exr(const std::filesystem::path& path, const ExrLayers& layers);
 
 // Throws Error(output), naming the file and the reason, when it is absent, truncated, damaged or not EXR.
-// read_exr needs the channels R, G and B; half and integer channels are widened to float.
+// read_exr needs the channels R, G and B, and leaves others alone; half and integer channels are widened to
+// float.
 Image read_exr(const std::filesystem::path& path);
 ExrLayers read_exr_layers(const std::filesystem::path& path);
 

@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "image/flip.h"
+#include "image/quantile.h"
 
 namespace vsglbench {
 namespace {
 
-constexpr double kMrseFactor = 0.01;  // of the reference's mean luminance
+constexpr double kMrseFactor = 0.01, kLitFactor = 0.1;  // of the reference's mean luminance
 constexpr float kKeyQuantile = 0.95f, kKeyLuminance = 0.8f;
 
 bool is_kept(const Mask& mask, size_t i) { return mask.empty() || mask[i] != 0; }
@@ -34,16 +36,6 @@ void check_finite(const Image& image, const char* what) {
   if (health.finite()) return;
   throw fail(ErrorKind::case_failed, "{} holds {} NaN and {} Inf pixels, the first at ({}, {})", what,
              health.nan, health.inf, health.first_bad->x, health.first_bad->y);
-}
-
-void check_comparable(const Image& x, const Image& r, const Mask& mask) {
-  if (x.width != r.width || x.height != r.height) {
-    throw fail(ErrorKind::case_failed, "the image is {}x{} but its reference {}x{}", x.width, x.height,
-               r.width, r.height);
-  }
-  check_mask(r, mask);
-  check_finite(x, "the image");
-  check_finite(r, "the reference");
 }
 
 // Means over the kept pixels; of channels where they concern x, or r alone.
@@ -87,19 +79,34 @@ double mean_relative_square(const Image& x, const Image& r, const Mask& mask, do
   return sum / (3.0 * static_cast<double>(pixels));
 }
 
-// Quantile by linear interpolation between order statistics (type 7); reorders `values`.
-template <class T>
-double take_quantile(std::vector<T>& values, double p) {
-  const double position = p * static_cast<double>(values.size() - 1);
-  const auto k = static_cast<size_t>(position);
-  std::nth_element(values.begin(), values.begin() + k, values.end());
-  const double lo = values[k];
-  if (k + 1 == values.size()) return lo;
-  const double hi = *std::min_element(values.begin() + k + 1, values.end());
-  return lo + (position - static_cast<double>(k)) * (hi - lo);
+struct Lit {
+  double smape = 0, share = 0;
+};
+
+// `mean`: of the luminance of r, above 0, so that at least one pixel is lit.
+Lit measure_lit(const Image& x, const Image& r, const Mask& mask, double mean, uint64_t pixels) {
+  uint64_t lit = 0;
+  double sum = 0;
+  for (size_t i = 0; i < r.pixels.size(); ++i) {
+    if (!is_kept(mask, i) || luminance64(r.pixels[i]) <= kLitFactor * mean) continue;
+    ++lit;
+    for (int c = 0; c < 3; ++c) sum += symmetric_relative(x.pixels[i][c], r.pixels[i][c]);
+  }
+  return {100 * sum / (3.0 * static_cast<double>(lit)),
+          static_cast<double>(lit) / static_cast<double>(pixels)};
 }
 
 }  // namespace
+
+void check_comparable(const Image& x, const Image& r, const Mask& mask) {
+  if (x.width != r.width || x.height != r.height) {
+    throw fail(ErrorKind::case_failed, "the image is {}x{} but its reference {}x{}", x.width, x.height,
+               r.width, r.height);
+  }
+  check_mask(r, mask);
+  check_finite(x, "the image");
+  check_finite(r, "the reference");
+}
 
 Health check_health(const Image& image) {
   Health health;
@@ -122,6 +129,10 @@ Health check_health(const Image& image) {
 const MetricFormula& formula(Metric metric) {
   static const std::array<MetricFormula, kMetrics.size()> formulas = {{
       {"smape", "smape-0-200", "100 mean(|x-r| / ((|x|+|r|)/2)), 0/0 = 0", {{"scale", 100}}},
+      {"smape_lit",
+       "smape-0-200-lit",
+       "smape over the pixels with luminance of r > factor mean luminance of r",
+       {{"scale", 100}, {"lit_factor", kLitFactor}}},
       {"rmse", "rmse-root", "sqrt(mean((x-r)^2))", {}},
       {"rrmse", "rrmse-mean-reference", "sqrt(mean((x-r)^2)) / mean(r)", {}},
       {"mrse",
@@ -129,6 +140,10 @@ const MetricFormula& formula(Metric metric) {
        "mean((x-r)^2 / (r^2+e)), e = (factor mean luminance of r)^2",
        {{"epsilon_factor", kMrseFactor}}},
       {"bias", "bias-relative-mean", "(mean x - mean r) / mean r", {}},
+      {"flip",
+       "hdr-flip-2021",
+       "mean over pixels of the largest LDR-FLIP of all exposures, tone-mapped with ACES",
+       {{"pixels_per_degree", kFlipPixelsPerDegree}}},
   }};
   return formulas[static_cast<size_t>(metric)];
 }
@@ -137,6 +152,8 @@ std::optional<double> Errors::value(Metric metric) const {
   switch (metric) {
     case Metric::smape:
       return smape;
+    case Metric::smape_lit:
+      return smape_lit;
     case Metric::rmse:
       return rmse;
     case Metric::rrmse:
@@ -145,6 +162,8 @@ std::optional<double> Errors::value(Metric metric) const {
       return mrse;
     case Metric::bias:
       return bias;
+    case Metric::flip:
+      return flip;
   }
   return std::nullopt;
 }
@@ -161,7 +180,12 @@ Errors measure_errors(const Image& x, const Image& r, const Mask& mask) {
     e.bias = (m.x - m.r) / m.r;
   }
   const double root = kMrseFactor * m.luminance_r;
-  if (root > 0) e.mrse = mean_relative_square(x, r, mask, root * root, m.pixels);
+  if (root > 0) {
+    e.mrse = mean_relative_square(x, r, mask, root * root, m.pixels);
+    const Lit lit = measure_lit(x, r, mask, m.luminance_r, m.pixels);
+    e.smape_lit = lit.smape;
+    e.lit_share = lit.share;
+  }
   return e;
 }
 

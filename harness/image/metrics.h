@@ -27,9 +27,9 @@ struct Health {
 Health check_health(const Image& image);
 
 // The formulas. A report names them by id; numbers of different ids are never compared.
-enum class Metric { smape, rmse, rrmse, mrse, bias };
-inline constexpr std::array kMetrics = {Metric::smape, Metric::rmse, Metric::rrmse, Metric::mrse,
-                                        Metric::bias};
+enum class Metric { smape, smape_lit, rmse, rrmse, mrse, bias, flip };
+inline constexpr std::array kMetrics = {Metric::smape, Metric::smape_lit, Metric::rmse, Metric::rrmse,
+                                        Metric::mrse,  Metric::bias,      Metric::flip};
 
 struct MetricFormula {
   std::string name;        // "smape"
@@ -39,22 +39,28 @@ struct MetricFormula {
 };
 const MetricFormula& formula(Metric metric);
 
-// smape  100 · mean(|x−r| / ((|x|+|r|)/2)), 0/0 → 0; percent, 0 … 200
-// rmse   √mean((x−r)²); W/m²/sr
-// rrmse  rmse / mean(r)
-// mrse   mean((x−r)² / (r²+ε)), ε = (0.01 · mean luminance of r)²
-// bias   (mean x − mean r) / mean r
-// rrmse, mrse and bias have no value where the reference is black (mean r or ε is not above 0).
+// smape      100 · mean(|x−r| / ((|x|+|r|)/2)), 0/0 → 0; percent, 0 … 200
+// smape_lit  smape over the pixels whose luminance of r is above 0.1 of its mean: where most of a picture is
+//            black, smape counts any glow there as 200 %
+// rmse       √mean((x−r)²); W/m²/sr
+// rrmse      rmse / mean(r)
+// mrse       mean((x−r)² / (r²+ε)), ε = (0.01 · mean luminance of r)²
+// bias       (mean x − mean r) / mean r
+// flip       HDR-FLIP, mean over pixels, 0 … 1; measured by measure_flip (flip.h) alone
+// smape_lit, rrmse, mrse, bias and flip have no value where the reference is black (its mean is not above 0).
 struct Errors {
   double smape = 0, rmse = 0;
   std::optional<double> rrmse, mrse, bias;
-  uint64_t pixels = 0;  // that the mask kept
+  uint64_t pixels = 0;                                         // that the mask kept
+  std::optional<double> smape_lit, lit_share, flip, flip_p99;  // lit_share: of the pixels, 0 … 1
   std::optional<double> value(Metric metric) const;
 };
 
-// Throws Error(case_failed) when sizes differ, the mask keeps nothing, or either image holds a NaN or Inf:
-// those are never averaged away.
+// All but flip. Throws Error(case_failed) when sizes differ, the mask keeps nothing, or either image holds a
+// NaN or Inf: those are never averaged away.
 Errors measure_errors(const Image& x, const Image& r, const Mask& mask = {});
+// The same refusals.
+void check_comparable(const Image& x, const Image& r, const Mask& mask);
 
 // Quantiles over pixels of the symmetric relative error |x−r|/((|x|+|r|)/2) of luminance, in percent.
 struct ErrorQuantiles {

@@ -45,7 +45,9 @@ TEST(Metrics, ByHand) {
 TEST(Metrics, AnImageAgainstItselfHasNoError) {
   const Image r = random_image(17, 5, 1);
   const Errors e = measure_errors(r, r);
-  for (const Metric m : kMetrics) EXPECT_EQ(e.value(m), 0.0) << formula(m).name;
+  for (const Metric m : kMetrics) {
+    if (m != Metric::flip) EXPECT_EQ(e.value(m), 0.0) << formula(m).name;
+  }
 }
 
 TEST(Metrics, SmapeIsSymmetricAndEndsAtTwoHundred) {
@@ -83,7 +85,22 @@ TEST(Metrics, ABlackReferenceHasNoRelativeError) {
   const Errors e = measure_errors(Image(2, 2, glm::vec3(1)), Image(2, 2));
   EXPECT_DOUBLE_EQ(e.smape, 200);
   EXPECT_DOUBLE_EQ(e.rmse, 1);
-  EXPECT_FALSE(e.rrmse || e.mrse || e.bias);
+  EXPECT_FALSE(e.rrmse || e.mrse || e.bias || e.smape_lit || e.lit_share);
+}
+
+TEST(Metrics, SmapeOfTheLitPixelsLeavesTheDarkOut) {
+  // Luminances of r: 0, 0.3, 0.5, 9.2; their mean is 2.5, a tenth of it 0.25.
+  Image x(4, 1), r(4, 1);
+  r.pixels = {glm::vec3(0), glm::vec3(0.3f), glm::vec3(0.5f), glm::vec3(9.2f)};
+  x.pixels = {glm::vec3(5), glm::vec3(0.9f), glm::vec3(0.5f), glm::vec3(0)};
+  const Errors e = measure_errors(x, r);
+  EXPECT_NEAR(*e.smape_lit, 100 * (1.0 + 0 + 2) / 3, 1e-4);  // 0.6 / 0.6, 0, 2
+  EXPECT_NEAR(*e.lit_share, 0.75, 1e-12);
+  EXPECT_NEAR(e.smape, 100 * (2 + 1.0 + 0 + 2) / 4, 1e-4);
+  // Without the brightest pixel the mean is 0.2667, and the mask's pixels alone count.
+  EXPECT_NEAR(*measure_errors(x, r, {1, 1, 1, 0}).lit_share, 2.0 / 3, 1e-12);
+  EXPECT_NEAR(*measure_errors(x, r, {1, 1, 0, 1}).lit_share, 1.0 / 3,
+              1e-12);  // the mean is 3.17: 0.3 is dark
 }
 
 TEST(Metrics, SumsKeepTheirDigits) {
@@ -97,8 +114,11 @@ TEST(Metrics, SumsKeepTheirDigits) {
 TEST(Metrics, FormulasAreNamed) {
   EXPECT_EQ(formula(Metric::smape).id, "smape-0-200");
   EXPECT_EQ(formula(Metric::mrse).constants.at("epsilon_factor"), 0.01);
+  EXPECT_EQ(formula(Metric::smape_lit).constants.at("lit_factor"), 0.1);
+  EXPECT_NEAR(formula(Metric::flip).constants.at("pixels_per_degree"), 67.02, 0.01);
   std::vector<std::string> ids;
   for (const Metric m : kMetrics) ids.push_back(formula(m).id);
+  EXPECT_EQ(formula(Metric::bias).name, "bias");
   std::sort(ids.begin(), ids.end());
   EXPECT_EQ(std::unique(ids.begin(), ids.end()), ids.end());
 }

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/progress.h"
-#include "image/metrics.h"
+#include "image/noise_floor.h"
 #include "reference/accumulator.h"
 #include "reference/parallel.h"
 #include "reference/strategies.h"
@@ -191,7 +191,7 @@ ReferenceResult Run::result(uint32_t batches) const {
   r.mask.resize(footprints_.size());
   std::transform(footprints_.begin(), footprints_.end(), r.mask.begin(),
                  [](const Footprint& f) { return f.valid; });
-  r.noise_floor_smape = measure_errors(r.half[0], r.half[1], r.mask).smape;
+  r.noise_floor_smape = noise_floor_of(r.half[0], r.half[1], r.mean, r.mask).smape;
   r.batches = batches;
   r.samples = batches * std::max(counts_.light, counts_.receiver);
   r.photons = uint64_t(batches) * counts_.photons;

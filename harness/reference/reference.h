@@ -42,7 +42,7 @@ struct ReferenceResult {
   Image variance;                // of the mean, per pixel and channel, from the scatter of the batches
   Image half[2];                 // means of the even and of the odd batches
   std::vector<uint8_t> mask;     // 1 where the camera sees a surface
-  double noise_floor_smape = 0;  // of the halves against each other over the mask, `smape-0-200`
+  double noise_floor_smape = 0;  // noise_floor_of() the halves over the mask, `smape-0-200`
   uint32_t samples = 0;          // a pixel, done
   uint32_t batches = 0;          // done
   uint64_t photons = 0, rays = 0;

@@ -7,24 +7,6 @@
 namespace vsglbench {
 namespace {
 
-MetricResult over_seeds(Metric metric, const std::vector<SeedResult>& seeds) {
-  MetricResult result;
-  result.formula = formula(metric).id;
-  result.constants = formula(metric).constants;
-  std::vector<double> values;
-  for (const SeedResult& s : seeds) {
-    if (const auto v = s.errors.value(metric)) values.push_back(*v);
-  }
-  if (values.size() != seeds.size()) {
-    result.undefined = "the reference is black";
-    return result;
-  }
-  const MeanEstimate mean = mean_ci95(values);
-  result.value = mean.mean;
-  if (mean.known) result.ci95 = mean.ci95;
-  return result;
-}
-
 bool starts_with_any(const std::string& name, const std::vector<std::string>& prefixes) {
   for (const auto& p : prefixes) {
     if (name == p || (p.ends_with('.') && name.starts_with(p))) return true;
@@ -52,21 +34,6 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
   HealthReport out{health.nan, health.inf, health.negative, std::nullopt};
   if (health.first_bad) out.first_bad = FirstBad{first_bad_pass, *health.first_bad, std::nullopt};
   return out;
-}
-
-Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference) {
-  if (seeds.empty())
-    throw fail(ErrorKind::case_failed, "no seed was rendered; there is no accuracy to report");
-  Accuracy a;
-  a.smape = over_seeds(Metric::smape, seeds);
-  a.rmse = over_seeds(Metric::rmse, seeds);
-  a.rrmse = over_seeds(Metric::rrmse, seeds);
-  a.mrse = over_seeds(Metric::mrse, seeds);
-  a.bias = over_seeds(Metric::bias, seeds);
-  a.reference = reference;
-  a.pixels = seeds.front().errors.pixels;
-  a.below_floor = *a.smape.value <= reference.noise_floor_smape;
-  return a;
 }
 
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,

@@ -41,9 +41,10 @@ struct SceneReport {
   std::string name, hash;
   uint64_t triangles = 0;
   std::vector<std::string> warnings;
-  glm::dvec3 light_flux{0};  // W inside the light's frustum
-  double exposure = 1;       // of the scene's previews
-  std::string contact;       // relative path of the contact sheet; empty: none
+  glm::dvec3 light_flux{0};        // W inside the light's frustum
+  double exposure = 1;             // of the scene's previews
+  std::string contact;             // relative path of the contact sheet; empty: none
+  std::vector<std::string> notes;  // accuracy_notes() of its cases
 };
 
 // Two measurements of one case under two names: what they show as a difference is noise.
@@ -75,34 +76,54 @@ struct GenerateResult {
   Summary total;                      // ms of both halves in each frame
   uint64_t lights = 0, empty = 0;     // lights asked for and evaluated; those of them without flux
   std::optional<double> overlap,
-      gap;  // mean over the RSM of lights beyond the first; share of it in none; absent: not defined for the method
+      gap;  // mean over the RSM of lights beyond the first; share of it in none; absent: not defined for the
+            // method
   uint64_t shaders = 0, dispatches = 0, memory_bytes = 0;
 };
 
 // What shading reported beside the image, of seed 0; a field is absent where the case does not have it.
 struct ShadingResult {
-  std::optional<double> clamp_removed;      // luminance that the lights' clamp took away / luminance without it
-  std::optional<double> cancellation_rate;  // mean share of lights shaded with exact BRDFs [VSGL14 §3.3, Fig. 6]
+  std::optional<double> clamp_removed;  // luminance that the lights' clamp took away / luminance without it
+  std::optional<double>
+      cancellation_rate;  // mean share of lights shaded with exact BRDFs [VSGL14 §3.3, Fig. 6]
 };
 
 // A metric's mean over seeds. Without a value (a black reference) `undefined` says why.
 struct MetricResult {
   std::optional<double> value;
   std::optional<Interval> ci95;  // Student's, over seeds; absent for a single seed
-  std::string formula;           // MetricFormula::id
+  std::string formula;           // MetricFormula::id; empty: not measured, in a report of old
   std::map<std::string, double> constants;
   std::string undefined;
+  // Where the largest seed is more than kHeavyTail times the median, mean and interval mean little; these
+  // stand beside them. `bias` is judged by 1 + bias, the image's energy over the reference's, which like the
+  // other metrics cannot be below 0.
+  bool heavy_tailed = false;
+  std::optional<double> median, least, largest;
+  bool empty() const { return formula.empty(); }
 };
+inline constexpr double kHeavyTail = 10;
 
 struct ReferenceInfo {
   std::string hash;
-  uint64_t samples = 0;          // paths a pixel
-  double noise_floor_smape = 0;  // its two halves against each other, percent
-  std::optional<double> noise_floor_rmse;
+  uint64_t samples = 0;  // paths a pixel
+  // What an exact image would show beside the reference's own noise (image/noise_floor.h); smape's in
+  // percent.
+  double noise_floor_smape = 0;
+  std::optional<double> noise_floor_rmse, noise_floor_smape_lit, noise_floor_rrmse, noise_floor_mrse,
+      noise_floor_flip;
+  // π · area of the scene · mean luminance over the pixels / the light's flux: 1 where all the light that is
+  // sent, spread evenly and reflected whole, would give this mean. Below kNearlyBlack next to no light
+  // reaches what the camera sees, and relative metrics are undefined.
+  std::optional<double> light_ratio;
+  std::optional<double> black_share;  // of the pixels, 0 … 1, that it leaves exactly black
 };
+inline constexpr double kNearlyBlack = 1e-6;
 
 struct Accuracy {
-  MetricResult smape, rmse, rrmse, mrse, bias;
+  MetricResult smape, rmse, rrmse, mrse, bias, smape_lit, flip;
+  std::optional<double> flip_p99;   // mean over seeds of HDR-FLIP's 99th percentile over pixels
+  std::optional<double> lit_share;  // of the pixels, 0 … 1, that smape_lit is over
   std::optional<ErrorQuantiles> quantiles;
   ReferenceInfo reference;
   uint64_t pixels = 0;       // that the camera sees a surface at
@@ -124,8 +145,8 @@ struct Temporal {
   FlickerSeries derivative, still;  // "derivative" and "static" in the file
 };
 
-// Where the first NaN or Inf is: in a pixel of the image or, where that shows none, in a light. When every pass
-// was checked: in a light or another element of what a pass wrote.
+// Where the first NaN or Inf is: in a pixel of the image or, where that shows none, in a light. When every
+// pass was checked: in a light or another element of what a pass wrote.
 struct FirstBad {
   std::string pass;  // the first pass whose output held one; empty where that is not known
   std::optional<glm::uvec2> pixel;
@@ -211,8 +232,8 @@ struct Report {
 
 HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
 
-// Means and intervals over seeds; a metric that any seed lacks is undefined. Throws Error(case_failed) for no
-// seeds.
+// Means and intervals over seeds; a metric that any seed lacks is undefined, but for flip, which may be
+// measured for the first seeds alone (constant "seeds"). Throws Error(case_failed) for no seeds.
 Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference);
 
 // Frame by frame, the sum of the passes whose dotted name starts with one of `prefixes` ("generate." or a

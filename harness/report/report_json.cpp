@@ -34,6 +34,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a("light_flux", v.light_flux);
   a("exposure", v.exposure);
   a.unless_empty("contact", v.contact);
+  a.unless_empty("notes", v.notes);
 }
 
 void fields(auto& a, Is<AaPair> auto& v) {
@@ -104,6 +105,10 @@ void fields(auto& a, Is<MetricResult> auto& v) {
   a("formula", v.formula);
   a("constants", v.constants);
   a.unless_empty("undefined", v.undefined);
+  a.unless_default("heavy_tailed", v.heavy_tailed);
+  a("median", v.median);
+  a("least", v.least);
+  a("largest", v.largest);
 }
 
 void fields(auto& a, Is<ErrorQuantiles> auto& v) {
@@ -117,6 +122,12 @@ void fields(auto& a, Is<ReferenceInfo> auto& v) {
   a("samples", v.samples);
   a("noise_floor_smape", v.noise_floor_smape);
   a("noise_floor_rmse", v.noise_floor_rmse);
+  a("noise_floor_smape_lit", v.noise_floor_smape_lit);
+  a("noise_floor_rrmse", v.noise_floor_rrmse);
+  a("noise_floor_mrse", v.noise_floor_mrse);
+  a("noise_floor_flip", v.noise_floor_flip);
+  a("light_ratio", v.light_ratio);
+  a("black_share", v.black_share);
 }
 
 void fields(auto& a, Is<Accuracy> auto& v) {
@@ -125,6 +136,10 @@ void fields(auto& a, Is<Accuracy> auto& v) {
   a("rrmse", v.rrmse);
   a("mrse", v.mrse);
   a("bias", v.bias);
+  a.unless_empty("smape_lit", v.smape_lit);
+  a("lit_share", v.lit_share);
+  a.unless_empty("flip", v.flip);
+  a("flip_p99", v.flip_p99);
   a("quantiles", v.quantiles);
   a("reference", v.reference);
   a("pixels", v.pixels);
@@ -138,6 +153,9 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("rrmse", v.errors.rrmse);
   a("mrse", v.errors.mrse);
   a("bias", v.errors.bias);
+  a("smape_lit", v.errors.smape_lit);
+  a("flip", v.errors.flip);
+  a("flip_p99", v.errors.flip_p99);
 }
 
 void fields(auto& a, Is<FlickerSeries> auto& v) {

@@ -54,15 +54,34 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     json.at(Json::json_pointer(pointer.substr(0, slash))).erase(pointer.substr(slash + 1));
     if (violations(json).empty()) optional.push_back(pointer);
   }
-  std::vector<std::string> expected = {"/scenes/0/contact", "/aa"};
-  for (const char* key :
-       {"effects", "generate/overlap", "generate/gap", "accuracy/smape/ci95", "accuracy/rmse/ci95",
-        "accuracy/rrmse/ci95", "accuracy/mrse/ci95", "accuracy/bias/ci95", "accuracy/quantiles",
-        "accuracy/reference/noise_floor_rmse", "temporal"}) {
+  std::vector<std::string> expected = {"/scenes/0/contact", "/scenes/0/notes", "/aa"};
+  for (const char* key : {"effects",
+                          "generate/overlap",
+                          "generate/gap",
+                          "accuracy/smape/ci95",
+                          "accuracy/rmse/ci95",
+                          "accuracy/rrmse/ci95",
+                          "accuracy/mrse/ci95",
+                          "accuracy/bias/ci95",
+                          "accuracy/quantiles",
+                          "accuracy/smape_lit",
+                          "accuracy/smape_lit/ci95",
+                          "accuracy/lit_share",
+                          "accuracy/flip",
+                          "accuracy/flip/ci95",
+                          "accuracy/flip_p99",
+                          "accuracy/reference/noise_floor_rmse",
+                          "accuracy/reference/noise_floor_smape_lit",
+                          "accuracy/reference/noise_floor_rrmse",
+                          "accuracy/reference/noise_floor_mrse",
+                          "accuracy/reference/noise_floor_flip",
+                          "accuracy/reference/light_ratio",
+                          "accuracy/reference/black_share",
+                          "temporal"}) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
-    for (const char* key : {"rrmse", "mrse", "bias"})
+    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99"})
       expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
   }
   for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {

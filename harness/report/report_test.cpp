@@ -111,29 +111,6 @@ TEST_F(ReportFile, KeepsListsOfSamplesOnOneLine) {
   EXPECT_EQ(JsonDocument::load(path_, ErrorKind::config).root().dump(), to_json(synthetic_report()).dump());
 }
 
-TEST(Report, AccuracyIsAMeanOverSeeds) {
-  const std::vector<SeedResult> seeds = {{1, {10, 1, 0.5, 2, 0.1, 9}}, {2, {14, 3, 0.7, 4, -0.1, 9}}};
-  const Accuracy a = accuracy_over_seeds(seeds, {"hash", 16, 12, std::nullopt});
-  EXPECT_DOUBLE_EQ(*a.smape.value, 12);
-  EXPECT_NEAR(a.smape.ci95->hi, 12 + 12.7062 * 2, 1e-3);  // t95(1) · s/√2, s = 2√2
-  EXPECT_NEAR(*a.bias.value, 0, 1e-15);
-  EXPECT_EQ(a.smape.formula, "smape-0-200");
-  EXPECT_EQ(a.mrse.constants.at("epsilon_factor"), 0.01);
-  EXPECT_EQ(a.pixels, 9u);
-  EXPECT_TRUE(a.below_floor);
-  EXPECT_FALSE(accuracy_over_seeds(seeds, {"hash", 16, 11.9, std::nullopt}).below_floor);
-  const Accuracy one = accuracy_over_seeds({seeds[0]}, {});
-  EXPECT_FALSE(one.smape.ci95);
-  EXPECT_THROW(accuracy_over_seeds({}, {}), Error);
-}
-
-TEST(Report, ABlackReferenceLeavesMetricsUndefined) {
-  const Accuracy a = accuracy_over_seeds({{1, {200, 1, std::nullopt, std::nullopt, std::nullopt, 9}}}, {});
-  EXPECT_TRUE(a.smape.value);
-  EXPECT_FALSE(a.bias.value || a.rrmse.value || a.mrse.value);
-  EXPECT_EQ(a.bias.undefined, "the reference is black");
-}
-
 TEST(Report, SumsPassesFrameByFrame) {
   const std::vector<PassTiming> passes = {{"generate.gbuffer.a", summarize({1, 2, 3})},
                                           {"generate.rsm.b", summarize({30, 20, 10})},

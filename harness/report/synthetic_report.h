@@ -34,9 +34,12 @@ inline CaseResult synthetic_case(const std::string& id) {
   c.generate = g;
   for (uint64_t seed = 0; seed < 8; ++seed) {
     const double d = static_cast<double>(seed) - 3.5;
-    c.seeds.push_back({seed, {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000}});
+    c.seeds.push_back(
+        {seed,
+         {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75, 0.2 + 0.01 * d, 0.5}});
   }
-  c.accuracy = accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001});
+  c.accuracy =
+      accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001, 0.4, 0.01, 0.002, 0.03, 0.25, 0.125});
   c.accuracy->quantiles = ErrorQuantiles{5, 80, 150};
   c.temporal = Temporal{{0.1, 0.2, 3, {0.1, 0.1, 0.2}}, {0.05, 0.1, 1, {0.05, 0.1}}};
   c.health = HealthReport{0, 0, 3, std::nullopt};
@@ -83,7 +86,8 @@ inline Report synthetic_report() {
   r.config = {{"name", "quick"}, {"seeds", 8}};
   r.complete = true;
   r.wall = {60, 40, 5, 6, 4, 1.125};
-  r.scenes = {{"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png"}};
+  r.scenes = {
+      {"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png", {"a note"}}};
   r.aa =
       AaPair{"cornell/mfis", "cornell/mfis#twin", {1.002, {0.99, 1.01}}, noise_floor({1.002, {0.99, 1.01}})};
   r.cases = {synthetic_case("cornell/mfis"),

@@ -8,6 +8,18 @@
 #include "run/coverage.h"
 
 namespace vsglbench {
+namespace {
+
+// Pixels times exposures that take FLIP about a tenth of a second: at 480×272, four exposures.
+constexpr uint64_t kFlipPixelsOfEverySeed = 600'000;
+
+void state_exposures(const FlipExposures& exposures, MetricResult* flip) {
+  flip->constants["start_exposure"] = exposures.start;
+  flip->constants["stop_exposure"] = exposures.stop;
+  flip->constants["exposures"] = exposures.count;
+}
+
+}  // namespace
 
 std::string error_kind(const Error& error, const char* input) {
   return error.exit_code() == 1 ? "case_failed" : input;
@@ -142,12 +154,26 @@ void CaseRun::score(uint32_t seed) {
   check_lights();
   if (seed == 0) describe_lights();
   if (seed == 0) describe_shading();
-  const Errors errors = measure_errors(image, input_.reference->mean, mask_);
+  Errors errors = measure_errors(image, input_.reference->mean, mask_);
+  measure_look(image, seed, &errors);
   if (seed == 0) {
     quantiles_ = error_quantiles(image, input_.reference->mean, mask_);
     first_image_ = image;
   }
   seeds_.push_back({seed, errors});
+}
+
+// FLIP looks at the image once an exposure: where that takes long it is measured for the first seed alone.
+void CaseRun::measure_look(const Image& image, uint32_t seed, Errors* errors) {
+  if (seed == 0) flip_exposures_ = flip_exposures(input_.reference->mean, mask_);
+  if (!flip_exposures_) return;
+  const bool every_seed = image.pixels.size() * flip_exposures_->count <= kFlipPixelsOfEverySeed;
+  if (seed > 0 && !every_seed) return;
+  if (seed == 0) flip_ = std::make_unique<FlipReference>(input_.reference->mean, mask_, *flip_exposures_);
+  const FlipErrors flip = flip_->compare(image);
+  errors->flip = flip.mean;
+  errors->flip_p99 = flip.p99;
+  if (!every_seed || seed + 1 == seeds()) flip_.reset();
 }
 
 void CaseRun::make_mask() {
@@ -256,8 +282,8 @@ CaseResult CaseRun::result() const {
     r.generate->rsm_ms = rsm ? rsm->median : 0;
   }
   if (!seeds_.empty()) {
-    r.accuracy = accuracy_over_seeds(seeds_, {input_.reference->hash, input_.reference->samples,
-                                              input_.reference->noise_floor_smape, std::nullopt});
+    r.accuracy = accuracy_over_seeds(seeds_, *input_.reference_info);
+    if (flip_exposures_) state_exposures(*flip_exposures_, &r.accuracy->flip);
     r.accuracy->quantiles = quantiles_;
     r.seeds = seeds_;
   }

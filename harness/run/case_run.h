@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "image/flip.h"
 #include "image/metrics.h"
 #include "reference/reference.h"
 #include "report/report.h"
@@ -17,8 +18,9 @@ namespace vsglbench {
 
 // What a case is measured with; all of it outlives the case.
 struct CaseInput {
-  const ReferenceResult* reference = nullptr;  // that matches its visibility, for whole frames
-  const KeptPdfs* pdfs = nullptr;              // for generation alone
+  const ReferenceResult* reference = nullptr;     // that matches its visibility, for whole frames
+  const ReferenceInfo* reference_info = nullptr;  // of that reference
+  const KeptPdfs* pdfs = nullptr;                 // for generation alone
   ExactVisibility exact;
 };
 
@@ -57,7 +59,7 @@ class CaseRun {
   // Everything measured so far, as the report holds it.
   CaseResult result() const;
   const Case& description() const { return case_; }
-  const std::optional<Image>& image() const { return first_image_; }  // of seed 0
+  const std::optional<Image>& image() const { return first_image_; }          // of seed 0
   const std::optional<Image>& cancellation() const { return cancellation_; }  // ShadingNotes, of seed 0
   const ReferenceResult* reference() const { return input_.reference; }
   const Mask& mask() const {
@@ -74,6 +76,7 @@ class CaseRun {
   FrameTimes render(uint32_t seed);
   void score(uint32_t seed);
   void make_mask();
+  void measure_look(const Image& image, uint32_t seed, Errors* errors);
   void check_health_of(const Image& image);
   void check_lights();
   void check_passes();
@@ -94,6 +97,8 @@ class CaseRun {
   std::vector<double> span_ms_;
   std::vector<SeedResult> seeds_;
   std::optional<ErrorQuantiles> quantiles_;
+  std::optional<FlipExposures> flip_exposures_;  // chosen with the first seed
+  std::unique_ptr<FlipReference> flip_;          // for further seeds
   std::optional<Image> first_image_, cancellation_;
   Mask mask_;
   std::optional<StopReason> reason_;

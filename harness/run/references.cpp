@@ -1,29 +1,81 @@
 #include "run/references.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "base/log.h"
 #include "base/progress.h"
+#include "image/noise_floor.h"
 #include "measure/stopwatch.h"
 #include "reference/cache.h"
 #include "run/memory.h"
+#include "scene/view.h"
 
 namespace vsglbench {
 
-const ReferenceResult& References::get(const Case& c) {
+namespace {
+
+// m².
+double surface_area(const Scene& scene) {
+  double area = 0;
+  for (const glm::uvec3& t : scene.triangles) {
+    const glm::dvec3 a = scene.positions[t.x];
+    area += 0.5 * glm::length(
+                      glm::cross(glm::dvec3(scene.positions[t.y]) - a, glm::dvec3(scene.positions[t.z]) - a));
+  }
+  return area;
+}
+
+double luminance64(const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+void describe_light(const Scene& scene, const ReferenceResult& r, ReferenceInfo* info) {
+  double sum = 0, pixels = 0, black = 0;
+  for (size_t i = 0; i < r.mean.pixels.size(); ++i) {
+    if (!r.mask[i]) continue;
+    ++pixels;
+    sum += luminance64(r.mean.pixels[i]);
+    black += r.mean.pixels[i] == glm::vec3(0);
+  }
+  const double flux = luminance64(frustum_flux(scene.light));
+  if (flux > 0) info->light_ratio = std::numbers::pi * surface_area(scene) * (sum / pixels) / flux;
+  info->black_share = black / pixels;
+}
+
+ReferenceInfo describe(const Scene& scene, const ReferenceResult& r) {
+  ReferenceInfo info;
+  info.hash = r.hash;
+  info.samples = r.samples;
+  const NoiseFloor floor = noise_floor_of(r.half[0], r.half[1], r.mean, r.mask);
+  info.noise_floor_smape = floor.smape;
+  info.noise_floor_rmse = floor.rmse;
+  info.noise_floor_smape_lit = floor.smape_lit;
+  info.noise_floor_rrmse = floor.rrmse;
+  info.noise_floor_mrse = floor.mrse;
+  info.noise_floor_flip = flip_floor_of(r.half[0], r.half[1], r.mean, r.mask);
+  describe_light(scene, r, &info);
+  return info;
+}
+
+}  // namespace
+
+const ReferenceResult& References::get(const Case& c) { return *slot(c).result; }
+const ReferenceInfo& References::info(const Case& c) { return *slot(c).info; }
+
+References::Slot& References::slot(const Case& c) {
   const bool occlusion = c.frame.visibility != Visibility::none;
   Slot& slot = slots_[{c.frame.width, c.frame.height, occlusion}];
   if (!slot.result && !slot.error) {
     const Stopwatch watch;
     try {
       slot.result = std::make_unique<ReferenceResult>(obtain(c, occlusion));
+      slot.info = describe(scene_, *slot.result);
     } catch (const Error& e) {
       slot.error = e;
     }
     wall_->references_s += watch.seconds();
   }
   if (slot.error) throw *slot.error;
-  return *slot.result;
+  return slot;
 }
 
 ReferenceResult References::obtain(const Case& c, bool occlusion) {

@@ -21,12 +21,16 @@ class References {
   // Throws Error(case_failed) when it does not fit into memory, the camera or the light sees nothing, or no
   // light comes back; asked again, the same error at once.
   const ReferenceResult& get(const Case& c);
+  // What the report says of it: its floors, and whether there is light in it at all.
+  const ReferenceInfo& info(const Case& c);
 
  private:
   struct Slot {
     std::unique_ptr<ReferenceResult> result;
+    std::optional<ReferenceInfo> info;
     std::optional<Error> error;
   };
+  Slot& slot(const Case& c);
   ReferenceResult obtain(const Case& c, bool occlusion);
   const Scene& scene_;
   const Config& config_;

@@ -98,6 +98,57 @@ TEST_F(RunTest, WritesImagesThatCanBeRead) {
   EXPECT_EQ(read_exr(out_ / "images/cornell/direct.exr").width, 32u);
 }
 
+// SMAPE as anybody would compute it from the files alone.
+TEST_F(RunTest, AStrangerFindsTheSameErrorInTheFiles) {
+  run();
+  const Report r = report();
+  const CaseResult& c = r.cases.at(0);
+  const ExrLayers x = read_exr_layers(out_ / c.images.at("indirect")),
+                  y = read_exr_layers(out_ / c.images.at("reference")),
+                  error = read_exr_layers(out_ / c.images.at("error"));
+  double sum = 0, whole = 0, pixels = 0, coverage = 0;
+  for (size_t i = 0; i < 32 * 18; ++i) {
+    const bool counts = x.scalars.at("A")[i] == 1 && y.scalars.at("A")[i] == 1;
+    EXPECT_EQ(error.scalars.at("A")[i], x.scalars.at("A")[i]);
+    pixels += counts;
+    coverage += x.scalars.at("A")[i];
+    for (int k = 0; k < 3; ++k) {
+      const double a = x.colors.at("").pixels[i][k], b = y.colors.at("").pixels[i][k];
+      const double e = a == b ? 0 : 2 * std::abs(a - b) / (std::abs(a) + std::abs(b));
+      whole += e;
+      sum += counts ? e : 0;
+    }
+  }
+  EXPECT_EQ(pixels, c.accuracy->pixels);
+  EXPECT_EQ(pixels, coverage);  // one file of the two is enough
+  EXPECT_LT(pixels, 32 * 18);
+  EXPECT_NEAR(100 * sum / (3 * pixels), c.seeds.at(0).errors.smape, 1e-9);
+  EXPECT_GT(std::abs(100 * whole / (3 * 32 * 18) - c.seeds.at(0).errors.smape), 0.1);
+  EXPECT_EQ(read_exr_layers(out_ / "images/cornell/direct.exr").scalars.at("A").size(), 32u * 18);
+}
+
+TEST_F(RunTest, EveryMetricAndItsFloorIsInTheReport) {
+  run();
+  const Report r = report();
+  const Accuracy& a = *r.cases.at(0).accuracy;
+  for (const MetricResult* m : {&a.smape, &a.rmse, &a.rrmse, &a.mrse, &a.bias, &a.smape_lit, &a.flip})
+    EXPECT_TRUE(m->value) << m->formula << ": " << m->undefined;
+  EXPECT_EQ(a.flip.constants.at("seeds"), 2);
+  EXPECT_GE(a.flip.constants.at("exposures"), 2);
+  EXPECT_LT(a.flip.constants.at("start_exposure"), a.flip.constants.at("stop_exposure"));
+  EXPECT_GT(*a.flip_p99, *a.flip.value);
+  EXPECT_GT(*a.lit_share, 0.1);
+  const ReferenceInfo& f = a.reference;
+  for (const auto& floor : {std::optional(f.noise_floor_smape), f.noise_floor_rmse, f.noise_floor_smape_lit,
+                            f.noise_floor_rrmse, f.noise_floor_mrse, f.noise_floor_flip}) {
+    ASSERT_TRUE(floor);
+    EXPECT_GT(*floor, 0);
+  }
+  // A closed room of grey walls: of the order of the share that they send back.
+  EXPECT_GT(*f.light_ratio, 0.05);
+  EXPECT_LT(*f.light_ratio, 2);
+}
+
 TEST_F(RunTest, WallTimeAddsUp) {
   const WallTime wall = run().report.wall;
   EXPECT_GT(wall.device_s, 0);

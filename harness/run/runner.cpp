@@ -12,6 +12,7 @@
 #include "gpu/shader_compiler.h"
 #include "measure/stopwatch.h"
 #include "method/registry.h"
+#include "report/accuracy_notes.h"
 #include "report/environment.h"
 #include "run/case_run.h"
 #include "run/report_store.h"
@@ -180,6 +181,7 @@ RunOutcome run_config(const RunOptions& options) {
   const WallTime earlier = report.wall;
   WorkerLog log;
   const auto save = [&](Report& state) {
+    for (SceneReport& scene : state.scenes) scene.notes = accuracy_notes(state.cases, scene.name);
     state.wall = sum(earlier, log.wall, watch.seconds());
     store.save(state);
   };
@@ -205,6 +207,9 @@ RunOutcome run_config(const RunOptions& options) {
   }
   report.complete = log.device_gone.empty();
   save(report);
+  for (const SceneReport& scene : report.scenes) {
+    for (const auto& note : scene.notes) log_warning("{}: {}", scene.name, note);
+  }
   outcome.validation_messages = log.validation_messages;
   outcome.exit_code = exit_code(outcome, !log.device_gone.empty());
   return outcome;

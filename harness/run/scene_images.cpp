@@ -26,9 +26,10 @@ std::string folder_of(const std::string& scene) { return "images/" + file_name(s
 // "N=256,rsm=256,vis=exact": the last part of a case's id.
 std::string parameters_of(const CaseResult& c) { return c.id.substr(c.scene.size() + c.method.size() + 2); }
 
-// An EXR with its preview; the EXR's path.
-std::string write_pair(const fs::path& out, const std::string& stem, const Image& image, float exposure) {
-  write_exr(out / (stem + ".exr"), image);
+// An EXR, coverage in its channel A, with its preview; the EXR's path.
+std::string write_pair(const fs::path& out, const std::string& stem, const Image& image, const Mask& mask,
+                       float exposure) {
+  write_exr(out / (stem + ".exr"), image, mask);
   write_png(out / (stem + ".png"), image, exposure);
   return stem + ".exr";
 }
@@ -38,29 +39,21 @@ std::string write_reference(const fs::path& out, const std::string& scene, const
   const std::string stem = fmt::format("{}/reference-{}", folder_of(scene), reference.hash.substr(0, 8));
   std::error_code ec;
   if (fs::exists(out / (stem + ".exr"), ec) && fs::exists(out / (stem + ".png"), ec)) return stem + ".exr";
-  return write_pair(out, stem, reference.mean, exposure);
+  return write_pair(out, stem, reference.mean, reference.mask, exposure);
 }
 
 void write_case(const fs::path& out, const CaseRun& run, float exposure, CaseResult* result) {
   const std::string stem =
       folder_of(result->scene) + "/" + file_name(result->method) + "/" + file_name(parameters_of(*result));
   const Image error = error_map(*run.image(), run.reference()->mean, run.mask());
-  write_exr(out / (stem + ".error.exr"), error);
+  write_exr(out / (stem + ".error.exr"), error, run.mask());
   write_png(out / (stem + ".error.png"), color_error_map(error, ContactSheet().error_range, run.mask()));
-  result->images = {{"indirect", write_pair(out, stem + ".indirect", *run.image(), exposure)},
+  result->images = {{"indirect", write_pair(out, stem + ".indirect", *run.image(), run.mask(), exposure)},
                     {"error", stem + ".error.exr"},
                     {"reference", write_reference(out, result->scene, *run.reference(), exposure)}};
   if (run.cancellation())
-    result->images["cancellation"] = write_pair(out, stem + ".cancellation", *run.cancellation(), 1);
-}
-
-std::string detail_of(const CaseResult& c) {
-  if (c.status != Status::ok) return c.error ? c.error->message : "failed";
-  const auto percent = [](const MetricResult& m, double scale, const char* format) {
-    return m.value ? fmt::format(fmt::runtime(format), scale * *m.value) : std::string("undefined");
-  };
-  return fmt::format("SMAPE {}  bias {}", percent(c.accuracy->smape, 1, "{:.2f} %"),
-                     percent(c.accuracy->bias, 100, "{:+.2f} %"));
+    result->images["cancellation"] =
+        write_pair(out, stem + ".cancellation", *run.cancellation(), run.mask(), 1);
 }
 
 // "N=256", "rsm=256", "vis=exact".
@@ -75,17 +68,18 @@ bool has_image(const CaseResult& c) { return c.images.contains("indirect"); }
 
 // A case with another reference than the one shown carries its own.
 ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases, const SceneReport& scene,
-                      const ReferenceResult& shown) {
+                      const ReferenceResult& shown, const ReferenceInfo& info) {
   const Captions captions = captions_of(cases);
   ContactSheet sheet;
   sheet.title = fmt::format("{}: one-bounce indirect light   {}", scene.name, captions.shared);
   sheet.reference = shown.mean;
-  sheet.reference_detail = fmt::format("{} samples, floor {:.2f} %", shown.samples, shown.noise_floor_smape);
+  sheet.reference_detail = fmt::format("{} samples; floor: SMAPE {:.2f}% RMSE {:.2g}", shown.samples,
+                                       info.noise_floor_smape, info.noise_floor_rmse.value_or(0));
   sheet.mask = shown.mask;
   sheet.exposure = static_cast<float>(scene.exposure);
   for (size_t i = 0; i < cases.size(); ++i) {
     const CaseResult& c = cases[i];
-    ContactEntry entry{captions.cases[i], detail_of(c), std::nullopt, std::nullopt};
+    ContactEntry entry{captions.cases[i], errors_of(c), std::nullopt, std::nullopt};
     if (has_image(c)) entry.image = read_exr(out / c.images.at("indirect"));
     if (has_image(c) && c.accuracy && c.accuracy->reference.hash != shown.hash)
       entry.reference = read_exr(out / c.images.at("reference"));
@@ -95,6 +89,19 @@ ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases,
 }
 
 }  // namespace
+
+// Medians of heavy-tailed seeds: the sheet has no room for ranges.
+std::string errors_of(const CaseResult& c) {
+  if (c.status != Status::ok) return c.error ? c.error->message : "failed";
+  const auto number = [](const MetricResult& m, double scale, const char* format) {
+    if (!m.value) return std::string("undefined");
+    return fmt::format(fmt::runtime(format), scale * (m.heavy_tailed ? *m.median : *m.value));
+  };
+  const Accuracy& a = *c.accuracy;
+  return fmt::format("SMAPE {} lit {} RMSE {} bias {} FLIP {}", number(a.smape, 1, "{:.3g}%"),
+                     number(a.smape_lit, 1, "{:.3g}%"), number(a.rmse, 1, "{:.3g}"),
+                     number(a.bias, 100, "{:+.3g}%"), number(a.flip, 1, "{:.3f}"));
+}
 
 std::string file_name(const std::string& name) {
   std::string out = name;
@@ -155,19 +162,20 @@ void SceneImages::write_direct(Frame& frame) {
   guarded(
       "output",
       [&] {
-        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(),
+        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(), frame.surface_mask(),
                    static_cast<float>(scene_->exposure));
       },
       warn);
 }
 
-void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown) {
+void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown,
+                              const ReferenceInfo& info) {
   const auto warn = [&](const std::string&, const std::string& message) {
     log_warning("{}: {}", scene_->name, message);
   };
   const auto write_it = [&] {
     const std::string path = folder_of(scene_->name) + "/contact.png";
-    write_png(out_ / path, contact_sheet(sheet_of(out_, cases, *scene_, shown)));
+    write_png(out_ / path, contact_sheet(sheet_of(out_, cases, *scene_, shown, info)));
     scene_->contact = path;
     log_info("contact sheet: {}", (out_ / path).string());
   };

@@ -15,6 +15,9 @@ namespace vsglbench {
 // meet.
 std::string file_name(const std::string& name);
 
+// "SMAPE 24.84 %  lit 21.02 %  RMSE 0.0155  bias -19.93 %  FLIP 0.12", or why there are no errors.
+std::string errors_of(const CaseResult& c);
+
 // What a contact sheet says of the cases of one scene: each one's method with those "KEY=VALUE" of its id
 // that not all cases have, such as "mfis N=64"; and those that they all have.
 struct Captions {
@@ -38,7 +41,8 @@ class SceneImages {
 
   // The contact sheet of all cases, from what was written; without it there is a warning. `shown`: the
   // reference of the first case that has an image.
-  void write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown);
+  void write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown,
+                   const ReferenceInfo& info);
 
  private:
   void write_direct(Frame& frame);

@@ -111,6 +111,7 @@ CaseInput SceneRun::input_of(CaseRun& run) {
   // blame.
   observer_.now({c.id, "computing its reference", false});
   input.reference = &truth_->references.get(c);
+  input.reference_info = &truth_->references.info(c);
   input.exact = [this, &run](const std::vector<LightPoint>& lights) {
     return run.rest_limit([&] { return truth_->visibility.trace(*run.frame(), lights); });
   };
@@ -238,7 +239,7 @@ void SceneRun::draw_sheet() {
   harness_works("drawing the contact sheet");
   const auto shown =
       std::find_if(planned.begin(), planned.end(), [&](const Case& c) { return c.id == drawn->id; });
-  images_.write_sheet(all, truth_->references.get(*shown));
+  images_.write_sheet(all, truth_->references.get(*shown), truth_->references.info(*shown));
   observer_.described(report_);
 }
 

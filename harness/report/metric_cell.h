@@ -1,0 +1,17 @@
+// A metric as a table says it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "report/report.h"
+
+namespace vsglbench {
+
+// "12.00 ± 0.35"; "3.10 ≤ floor 4.20" where it is not above `floor` (unscaled); of heavy-tailed seeds
+// "-93.05 [-97.00 … +290.00]", median and range; "undefined", or "not measured" in a report of old. `format`
+// is fmt's, for one number, which is the metric's times `scale`.
+std::string metric_cell(const MetricResult& metric, double scale, const char* format,
+                        std::optional<double> floor);
+
+}  // namespace vsglbench
