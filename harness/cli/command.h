@@ -24,5 +24,6 @@ void add_figure_command(CLI::App& app, const std::vector<std::string>& argv, Com
 void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_sg_command(CLI::App& app, CommandResult* result);
 void add_stability_command(CLI::App& app, CommandResult* result);
+void add_table_command(CLI::App& app);
 
 }  // namespace vsglbench

@@ -121,7 +121,9 @@ void CaseRun::step() {
     const Stopwatch watch;
     const bool scored = seeds_.size() < seeds();
     const uint32_t seed = scored ? static_cast<uint32_t>(seeds_.size()) : 0;
-    record(render(seed));
+    const double rays_before_s = rays_s();
+    const FrameTimes times = render(seed);
+    record(times, 1e3 * (rays_s() - rays_before_s));
     if (scored) score(seed);
     if (config_.measure == Measure::generation && span_ms_.size() == 1) {
       result_.health.emplace();
@@ -198,7 +200,7 @@ void CaseRun::check_passes() {
   throw fail(ErrorKind::case_failed, "not finite");
 }
 
-void CaseRun::record(const FrameTimes& times) {
+void CaseRun::record(const FrameTimes& times, double rays_ms) {
   if (pass_names_.empty()) {
     for (const auto& pass : times.passes) pass_names_.push_back(pass.name);
     pass_ms_.resize(pass_names_.size());
@@ -209,6 +211,7 @@ void CaseRun::record(const FrameTimes& times) {
   }
   for (size_t i = 0; i < pass_names_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
   span_ms_.push_back(times.span_ms);
+  rays_ms_.push_back(rays_ms);
   if (!result_.generate) result_.generate.emplace();
   result_.generate->dispatches = times.generate_dispatches;
 }
@@ -248,6 +251,8 @@ CaseResult CaseRun::result() const {
     r.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
   if (!span_ms_.empty()) {
     r.frame = frame_timing(span_ms_, r.passes);
+    if (std::ranges::any_of(rays_ms_, [](double ms) { return ms > 0; }))
+      r.frame->host_visibility = summarize(rays_ms_);
     const auto total = sum_of_passes(r.passes, {"generate."});
     const auto gbuffer = sum_of_passes(r.passes, {"generate.gbuffer."});
     const auto rsm = sum_of_passes(r.passes, {"generate.rsm."});
