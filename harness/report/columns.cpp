@@ -64,7 +64,7 @@ std::string ms(double value) {
 std::function<std::string(const Report&, const std::string&)> noise_floor_of(const std::string& time) {
   return [=](const Report& report, const std::string& scene) {
     const TimeNoise* noise = noise_of(report, scene, time);
-    return noise ? fmt::format("{:.2g} %", 100 * noise->noise_floor) : "";
+    return noise ? percent(noise->noise_floor) : "";
   };
 }
 

@@ -18,6 +18,10 @@ const AaPair* pair_of(const Report& report, const std::string& scene) {
 
 }  // namespace
 
+std::string percent(double share) {
+  return share < 1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
 const std::vector<std::string>& time_columns() {
   static const std::vector<std::string> names = {"generate", "generate.gbuffer", "generate.rsm",
                                                  "method",   "visibility",       "frame"};
@@ -69,8 +73,8 @@ std::optional<std::string> noise_over(const Report& report, double limit) {
     }
   }
   if (!worst || worst->noise_floor <= limit) return std::nullopt;
-  return fmt::format("{}: the time '{}' of one case measured twice differs by up to {:.2g} %, over {:g} %",
-                     noisy->scene, worst->column, 100 * worst->noise_floor, 100 * limit);
+  return fmt::format("{}: the time '{}' of one case measured twice differs by up to {}, over {:g} %",
+                     noisy->scene, worst->column, percent(worst->noise_floor), 100 * limit);
 }
 
 }  // namespace vsglbench

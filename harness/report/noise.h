@@ -19,6 +19,9 @@ std::optional<Summary> time_of(const CaseResult& c, const std::string& column);
 // The noise of every time of which both have samples above 0 only.
 AaPair aa_pair(const CaseResult& original, const CaseResult& twin);
 
+// A share as "4.2 %" or "340 %".
+std::string percent(double share);
+
 // Null where the scene has no A/A pair, or its pair not this time.
 const TimeNoise* noise_of(const Report& report, const std::string& scene, const std::string& column);
 

@@ -74,6 +74,12 @@ TEST(Noise, TheNoisiestTimeOfAllScenesIsNamed) {
   EXPECT_NE(noise_over(r, 0.05)->find("cornell: the time 'generate'"), std::string::npos);
 }
 
+TEST(Noise, IsPrintedAsAPercentage) {
+  EXPECT_EQ(percent(0.0416), "4.2 %");
+  EXPECT_EQ(percent(0.12), "12 %");
+  EXPECT_EQ(percent(3.404), "340 %");
+}
+
 TEST(Noise, AnUnknownNoiseIsTooMuch) {
   Report r = synthetic_report();
   r.aa.clear();

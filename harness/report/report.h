@@ -75,7 +75,9 @@ struct FrameTiming {
   Summary span;                            // ms from the first to the last timestamp of each frame
   double sum_ms = 0, unattributed_ms = 0;  // medians over frames of Σ passes, and of span − Σ passes
   std::optional<Summary> method;           // ms of all passes but gbuffer and rsm: method_time()
-  std::optional<Summary> host_visibility;  // ms that the host's shadow rays took of each frame; none: no rays
+  // ms that the host's shadow rays took of each frame, warm-up included, whose lights were not the last one's:
+  // the same lights are not traced again. None: no rays.
+  std::optional<Summary> host_visibility;
 };
 
 struct GenerateResult {

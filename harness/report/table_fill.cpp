@@ -51,7 +51,9 @@ bool is_skipped(const fs::path& folder) {
 }
 
 bool holds_table(const fs::path& file) {
-  return file.extension() == ".md" && read_text(file).find(kBegin) != std::string::npos;
+  if (file.extension() != ".md") return false;
+  const auto lines = split(read_text(file), '\n');
+  return std::ranges::any_of(lines, [](const std::string& line) { return line.starts_with(kBegin); });
 }
 
 }  // namespace

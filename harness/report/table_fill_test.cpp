@@ -82,7 +82,7 @@ TEST_F(TableFill, WhatIsWrongWithAMarker) {
 TEST_F(TableFill, FindsTheFilesThatHoldTables) {
   write_text(dir_ / "README.md", kText);
   write_text(dir_ / "deep/README.md", kText);
-  write_text(dir_ / "deep/none.md", "no table");
+  write_text(dir_ / "deep/none.md", "no table, but how to write one:\n\n    " + kText.substr(9));
   write_text(dir_ / "build/README.md", kText);
   write_text(dir_ / ".git/README.md", kText);
   EXPECT_EQ(files_with_tables({dir_}), (std::vector<fs::path>{dir_ / "README.md", dir_ / "deep/README.md"}));

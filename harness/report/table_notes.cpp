@@ -10,10 +10,9 @@ std::string count_of(const Json& config, const char* key, const char* what) {
 std::string setting_note(const Report& report, const std::string& shared) {
   const Json& config = report.config;
   std::string out = shared;
-  if (config.contains("frame")) {
-    out += fmt::format("{}{}×{} pixels", out.empty() ? "" : ", ", config["frame"].value("width", 0),
-                       config["frame"].value("height", 0));
-  }
+  const Json frame = config.value("frame", Json::object());
+  if (frame.contains("width") && frame.contains("height"))
+    out += fmt::format(", {}×{} pixels", frame["width"].dump(), frame["height"].dump());
   out += count_of(config, "importance_lights", "importance lights") + count_of(config, "seeds", "seeds");
   if (config.contains("reference"))
     out += count_of(config["reference"], "samples", "samples a pixel of the reference");

@@ -98,10 +98,10 @@ FrameTimes CaseRun::render(uint32_t seed) {
   const Stopwatch watch;
   FrameTimes times = config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs)
                                                             : frame_->render(seed);
-  const double device_s = times.span_ms * 1e-3;
+  const double device_s = times.span_ms * 1e-3, visibility_s = wall_->visibility_s - visibility_before;
   wall_->device_s += device_s;
+  if (visibility_s > 0) rays_ms_.push_back(1e3 * visibility_s);
   if (!rendered_) {
-    const double visibility_s = wall_->visibility_s - visibility_before;
     wall_->compilation_s += std::max(0.0, watch.seconds() - device_s - visibility_s);
   }
   rendered_ = true;
@@ -121,9 +121,7 @@ void CaseRun::step() {
     const Stopwatch watch;
     const bool scored = seeds_.size() < seeds();
     const uint32_t seed = scored ? static_cast<uint32_t>(seeds_.size()) : 0;
-    const double rays_before_s = rays_s();
-    const FrameTimes times = render(seed);
-    record(times, 1e3 * (rays_s() - rays_before_s));
+    record(render(seed));
     if (scored) score(seed);
     if (config_.measure == Measure::generation && span_ms_.size() == 1) {
       result_.health.emplace();
@@ -200,7 +198,7 @@ void CaseRun::check_passes() {
   throw fail(ErrorKind::case_failed, "not finite");
 }
 
-void CaseRun::record(const FrameTimes& times, double rays_ms) {
+void CaseRun::record(const FrameTimes& times) {
   if (pass_names_.empty()) {
     for (const auto& pass : times.passes) pass_names_.push_back(pass.name);
     pass_ms_.resize(pass_names_.size());
@@ -211,7 +209,6 @@ void CaseRun::record(const FrameTimes& times, double rays_ms) {
   }
   for (size_t i = 0; i < pass_names_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
   span_ms_.push_back(times.span_ms);
-  rays_ms_.push_back(rays_ms);
   if (!result_.generate) result_.generate.emplace();
   result_.generate->dispatches = times.generate_dispatches;
 }
@@ -251,8 +248,7 @@ CaseResult CaseRun::result() const {
     r.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
   if (!span_ms_.empty()) {
     r.frame = frame_timing(span_ms_, r.passes);
-    if (std::ranges::any_of(rays_ms_, [](double ms) { return ms > 0; }))
-      r.frame->host_visibility = summarize(rays_ms_);
+    if (!rays_ms_.empty()) r.frame->host_visibility = summarize(rays_ms_);
     const auto total = sum_of_passes(r.passes, {"generate."});
     const auto gbuffer = sum_of_passes(r.passes, {"generate.gbuffer."});
     const auto rsm = sum_of_passes(r.passes, {"generate.rsm."});

@@ -71,13 +71,12 @@ class CaseRun {
   void announce(bool limited) const;
   uint32_t seeds() const;  // to be scored
   FrameTimes render(uint32_t seed);
-  double rays_s() const { return wall_->visibility_s; }  // so far, of all cases
   void score(uint32_t seed);
   void make_mask();
   void check_health_of(const Image& image);
   void check_lights();
   void check_passes();
-  void record(const FrameTimes& times, double rays_ms);
+  void record(const FrameTimes& times);
   void describe_lights();
   void describe_shading();
 
@@ -91,7 +90,8 @@ class CaseRun {
   CaseResult result_;  // but for what result() makes of the samples below
   std::vector<std::string> pass_names_;
   std::vector<std::vector<double>> pass_ms_;  // of each pass, one a frame
-  std::vector<double> span_ms_, rays_ms_;  // rays_ms_: of exact visibility, on the host
+  std::vector<double> span_ms_;
+  std::vector<double> rays_ms_;  // of exact visibility on the host, in each frame that traced any
   std::vector<SeedResult> seeds_;
   std::optional<ErrorQuantiles> quantiles_;
   std::optional<Image> first_image_, cancellation_;

@@ -76,7 +76,8 @@ TEST_F(RunTest, WritesAReportThatHoldsEverything) {
     EXPECT_GT(c.frame->span.median, 0);
     EXPECT_LT(c.frame->method->median, c.frame->span.median);
     ASSERT_TRUE(c.frame->host_visibility) << c.id;
-    EXPECT_EQ(c.frame->host_visibility->samples.size(), 2u);
+    // Warm-up and seed 0 have the same lights, which are traced once.
+    EXPECT_EQ(c.frame->host_visibility->samples.size(), c.method == "all-texels" ? 1u : 2u);
     EXPECT_GT(c.frame->host_visibility->min, 0);
     EXPECT_EQ(c.stopping->frames, 2u);
     expect_passes(c, c.method != "all-texels");
