@@ -12,7 +12,8 @@ namespace {
 
 TEST_F(CliTest, EveryCommandHasHelpWithAnExample) {
   for (const char* command :
-       {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size", "kernels"}) {
+       {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size", "kernels",
+        "table"}) {
     const Finished f = run({command, "--help"});
     EXPECT_EQ(f.code, 0);
     EXPECT_TRUE(contains(f.out, "Example"));
@@ -122,7 +123,8 @@ TEST_F(CliTest, ReferenceWritesItsImages) {
 TEST_F(CliTest, ARunPrintsItsTable) {
   const Finished f = run_config();
   EXPECT_EQ(f.code, 0);
-  EXPECT_TRUE(contains(f.out, "cornell/vpl/N=16,rsm=16,vis=exact"));
+  for (const char* part : {"\ncornell\n  vpl ", "noise floor", "every case: N=16,rsm=16,vis=exact"})
+    EXPECT_TRUE(contains(f.out, part));
   EXPECT_TRUE(f.err.empty()) << f.err;  // no progress bar where there is no terminal
 }
 

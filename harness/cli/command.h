@@ -25,5 +25,6 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
 void add_metrics_command(CLI::App& app, CommandResult* result);
 void add_sg_command(CLI::App& app, CommandResult* result);
 void add_stability_command(CLI::App& app, CommandResult* result);
+void add_table_command(CLI::App& app);
 
 }  // namespace vsglbench

@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   add_sg_command(app, &result);
   add_figure_command(app, arguments, &result);
   add_stability_command(app, &result);
+  add_table_command(app);
   for (CLI::App* command : app.get_subcommands({})) {
     command->fallthrough();  // -q and the like may come last
     refuse_no_numbers(command);

@@ -2,11 +2,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 
 #include "base/child.h"
 #include "base/error.h"
 #include "cli/command.h"
+#include "report/noise.h"
 #include "report/table.h"
 #include "run/config.h"
 #include "run/runner.h"
@@ -35,7 +38,19 @@ void print_outcome(const RunOutcome& outcome) {
       100 * std::max(0.0, w.overhead_ratio - 1));
 }
 
-void run(const RunOptions& options, CommandResult* result) {
+// "5%" as 0.05.
+double share_of(const std::string& percent) {
+  char* end = nullptr;
+  const double value = std::strtod(percent.c_str(), &end);
+  if (std::string_view(end) != "%" || !std::isfinite(value) || value <= 0)
+    throw fail(ErrorKind::usage, "--require-noise takes a percentage above 0, such as 5%, not '{}'", percent);
+  return value / 100;
+}
+
+// `noise`: of --require-noise; empty: any.
+void run(const RunOptions& options, const std::string& noise, CommandResult* result) {
+  const double limit = noise.empty() ? 0 : share_of(noise);
+
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   const RunOutcome outcome = run_config(options);
@@ -43,16 +58,19 @@ void run(const RunOptions& options, CommandResult* result) {
   std::fflush(stdout);
   result->exit_code = outcome.exit_code;
   const auto& messages = outcome.validation_messages;
-  if (messages.empty()) return;
-  throw fail(ErrorKind::case_failed, "the validation layers gave {} messages, the first: {}", messages.size(),
-             messages.front());
+  if (!messages.empty()) {
+    throw fail(ErrorKind::case_failed, "the validation layers gave {} messages, the first: {}",
+               messages.size(), messages.front());
+  }
+  const auto too_noisy = noise.empty() ? std::nullopt : noise_over(outcome.report, limit);
+  if (too_noisy) throw fail(ErrorKind::case_failed, "{}", *too_noisy);
 }
 
 }  // namespace
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result) {
   auto options = std::make_shared<RunOptions>();
-  auto config = std::make_shared<std::string>();
+  auto config = std::make_shared<std::string>(), noise = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("run", "measure the cases of an experiment and write report.json");
   command->footer(
       "The report is saved after every scene, whose cases are measured together. An interrupted run goes on "
@@ -75,6 +93,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
           "seconds that one action of a case may take before it counts as hanging (default: the config's, "
           "600)")
       ->check(CLI::Range(1e-3, 1e6));
+  command->add_option(
+      "--require-noise", *noise,
+      "fail a run, after everything is written, whose A/A pairs show more noise than this in any time "
+      "(5%)");
   command->add_flag("--force", options->force, "measure again what an interrupted run had finished");
   command->add_flag(
       "--check-passes", options->check_passes,
@@ -85,7 +107,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
   command->callback([=] {
     options->config = config_path(*config);
     options->argv = argv;
-    run(*options, result);
+    run(*options, *noise, result);
   });
 }
 

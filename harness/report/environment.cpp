@@ -43,6 +43,13 @@ HostInfo host_info() {
   return host;
 }
 
+std::optional<double> load_average() {
+  std::ifstream in("/proc/loadavg");
+  double load = 0;
+  if (in >> load) return load;
+  return std::nullopt;
+}
+
 GitState build_git() { return {VSGLBENCH_GIT_COMMIT, VSGLBENCH_GIT_DIRTY}; }
 
 }  // namespace vsglbench

@@ -19,6 +19,15 @@ TEST(Environment, DescribesTheHost) {
   EXPECT_GT(host.memory_bytes, 100u << 20);
 }
 
+// uptime(1) prints the same three means.
+TEST(Environment, TheLoadIsOneMinutes) {
+  const auto load = load_average();
+  ASSERT_TRUE(load);
+  double means[3] = {};
+  ASSERT_EQ(::getloadavg(means, 3), 3);
+  EXPECT_NEAR(*load, means[0], 0.25 + 0.1 * means[0]);  // it moves on between the two looks
+}
+
 TEST(Environment, TheCommitIsWholeOrUnknown) {
   EXPECT_TRUE(std::regex_match(build_git().commit, std::regex("[0-9a-f]{40}|unknown"))) << build_git().commit;
 }

@@ -14,6 +14,24 @@ bool starts_with_any(const std::string& name, const std::vector<std::string>& pr
   return false;
 }
 
+template <class Wanted>
+std::optional<Summary> sum_of(const std::vector<PassTiming>& passes, const Wanted& wanted) {
+  std::vector<double> sums;
+  bool any = false;
+  for (const PassTiming& pass : passes) {
+    if (!wanted(pass.name)) continue;
+    if (any && pass.ms.samples.size() != sums.size()) {
+      throw std::invalid_argument(
+          fmt::format("pass {} has {} samples, not {}", pass.name, pass.ms.samples.size(), sums.size()));
+    }
+    sums.resize(pass.ms.samples.size(), 0);
+    for (size_t i = 0; i < sums.size(); ++i) sums[i] += pass.ms.samples[i];
+    any = true;
+  }
+  if (!any) return std::nullopt;
+  return summarize(std::move(sums));
+}
+
 }  // namespace
 
 std::string_view name(Status status) {
@@ -38,20 +56,11 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
 
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
                                      const std::vector<std::string>& prefixes) {
-  std::vector<double> sums;
-  bool any = false;
-  for (const PassTiming& pass : passes) {
-    if (!starts_with_any(pass.name, prefixes)) continue;
-    if (any && pass.ms.samples.size() != sums.size()) {
-      throw std::invalid_argument(
-          fmt::format("pass {} has {} samples, not {}", pass.name, pass.ms.samples.size(), sums.size()));
-    }
-    sums.resize(pass.ms.samples.size(), 0);
-    for (size_t i = 0; i < sums.size(); ++i) sums[i] += pass.ms.samples[i];
-    any = true;
-  }
-  if (!any) return std::nullopt;
-  return summarize(std::move(sums));
+  return sum_of(passes, [&](const std::string& name) { return starts_with_any(name, prefixes); });
+}
+
+std::optional<Summary> method_time(const std::vector<PassTiming>& passes) {
+  return sum_of(passes, [](const std::string& name) { return name != "gbuffer" && name != "rsm"; });
 }
 
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes) {
@@ -70,6 +79,7 @@ FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTimi
   frame.span = summarize(std::move(span_ms));
   frame.sum_ms = median(sum);
   frame.unattributed_ms = median(rest);
+  frame.method = method_time(passes);
   return frame;
 }
 

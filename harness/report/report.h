@@ -35,6 +35,7 @@ struct HostInfo {
   std::string cpu, os;
   uint32_t cores = 0;
   uint64_t memory_bytes = 0;
+  std::optional<double> load_at_start, load_at_end;  // mean number of runnable processes over a minute
 };
 
 struct SceneReport {
@@ -47,11 +48,16 @@ struct SceneReport {
   std::vector<std::string> notes;  // accuracy_notes() of its cases
 };
 
-// Two measurements of one case under two names: what they show as a difference is noise.
+struct TimeNoise {
+  std::string column;      // a name of report/noise.h
+  Ratio ratio;             // of the medians, case / twin
+  double noise_floor = 0;  // relative
+};
+
+// Two measurements of one case of a scene under two names: what they show as a difference is noise.
 struct AaPair {
-  std::string case_id, twin_id;
-  Ratio ratio;  // of the frame medians, case / twin
-  double noise_floor = 0;
+  std::string scene, case_id, twin_id;
+  std::vector<TimeNoise> times;  // those in which the device's clock saw time pass
 };
 
 struct Effect {
@@ -69,6 +75,10 @@ struct PassTiming {
 struct FrameTiming {
   Summary span;                            // ms from the first to the last timestamp of each frame
   double sum_ms = 0, unattributed_ms = 0;  // medians over frames of Σ passes, and of span − Σ passes
+  std::optional<Summary> method;           // ms of all passes but gbuffer and rsm: method_time()
+  // ms that the host's shadow rays took of each frame, warm-up included, whose lights were not the last one's:
+  // the same lights are not traced again. None: no rays.
+  std::optional<Summary> host_visibility;
 };
 
 struct GenerateResult {
@@ -226,7 +236,7 @@ struct Report {
   bool complete = false;  // every planned case is in it
   WallTime wall;
   std::vector<SceneReport> scenes;
-  std::optional<AaPair> aa;
+  std::vector<AaPair> aa;  // one a scene
   std::vector<CaseResult> cases;
 };
 
@@ -241,7 +251,12 @@ Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const Referen
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
                                      const std::vector<std::string>& prefixes);
 
-// Span, Σ passes and the unattributed rest from the raw per-frame spans.
+// Frame by frame, the sum of all passes but `gbuffer` and `rsm`: rasterising G-buffer and RSM is the same
+// for every method, and a GPU may raster on a few of its units only. Nothing without such a pass; throws as
+// above.
+std::optional<Summary> method_time(const std::vector<PassTiming>& passes);
+
+// Span, Σ passes, the unattributed rest and the method's time from the raw per-frame spans.
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes);
 
 // "2024-05-01T12:00:00Z".
@@ -252,7 +267,7 @@ Json to_json(const Report& report);
 Report report_from_json(const Json& json);  // `json` obeys the schema
 
 // A part of a report as JSON and back, for a process to tell another. T: AaPair, CaseResult, DeviceReport,
-// SceneReport or WallTime.
+// SceneReport, TimeNoise or WallTime.
 template <class T>
 Json part_to_json(const T& part);
 template <class T>

@@ -24,6 +24,8 @@ void fields(auto& a, Is<HostInfo> auto& v) {
   a("cores", v.cores);
   a("memory_bytes", v.memory_bytes);
   a("os", v.os);
+  a("load_at_start", v.load_at_start);
+  a("load_at_end", v.load_at_end);
 }
 
 void fields(auto& a, Is<SceneReport> auto& v) {
@@ -37,12 +39,18 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a.unless_empty("notes", v.notes);
 }
 
-void fields(auto& a, Is<AaPair> auto& v) {
-  a("case", v.case_id);
-  a("twin", v.twin_id);
+void fields(auto& a, Is<TimeNoise> auto& v) {
+  a("column", v.column);
   a("ratio", v.ratio.value);
   a("ci95", v.ratio.ci95);
   a("noise_floor", v.noise_floor);
+}
+
+void fields(auto& a, Is<AaPair> auto& v) {
+  a("scene", v.scene);
+  a("case", v.case_id);
+  a("twin", v.twin_id);
+  a("times", v.times);
 }
 
 void fields(auto& a, Is<Effect> auto& v) {
@@ -73,6 +81,8 @@ void fields(auto& a, Is<FrameTiming> auto& v) {
   a("sum_ms", v.sum_ms);
   a("unattributed_ms", v.unattributed_ms);
   a("span", v.span);
+  a("method", v.method);
+  a("host_visibility", v.host_visibility);
 }
 
 void fields(auto& a, Is<GenerateResult> auto& v) {
@@ -237,7 +247,7 @@ void fields(auto& a, Is<Report> auto& v) {
   a("complete", v.complete);
   a("wall", v.wall);
   a("scenes", v.scenes);
-  a("aa", v.aa);
+  a.unless_empty("aa", v.aa);
   a("cases", v.cases);
 }
 
@@ -249,19 +259,34 @@ Json to_json(const Report& report) {
 
 namespace {
 
-// The file holds the number of pixels once a case, not with every seed.
-void restore_pixels(CaseResult& c) {
+// The file holds the number of pixels once a case, not with every seed; reports of old lack the method's time.
+void restore(CaseResult& c) {
+  if (c.frame && !c.frame->method) c.frame->method = method_time(c.passes);
   if (!c.accuracy) return;
   for (SeedResult& s : c.seeds) s.errors.pixels = c.accuracy->pixels;
+}
+
+// Reports of old have one pair for all scenes, an object, and of its times the frame's alone.
+Json with_pairs(Json json) {
+  if (!json.contains("aa") || json["aa"].is_array()) return json;
+  Json time = json["aa"], pair = {{"scene", ""}, {"case", time["case"]}, {"twin", time["twin"]}};
+  for (const Json& c : json["cases"]) {
+    if (c["id"] == pair["case"]) pair["scene"] = c["scene"];
+  }
+  time["column"] = "frame";
+  pair["times"] = Json::array({time});
+  json["aa"] = Json::array({pair});
+  return json;
 }
 
 }  // namespace
 
 Report report_from_json(const Json& json) {
   Report report;
-  JsonReader reader(json);
+  const Json current = with_pairs(json);
+  JsonReader reader(current);
   fields(reader, report);
-  for (CaseResult& c : report.cases) restore_pixels(c);
+  for (CaseResult& c : report.cases) restore(c);
   return report;
 }
 
@@ -277,7 +302,7 @@ T part_from_json(const Json& json) {
   T part;
   JsonReader reader(json);
   fields(reader, part);
-  if constexpr (std::same_as<T, CaseResult>) restore_pixels(part);
+  if constexpr (std::same_as<T, CaseResult>) restore(part);
   return part;
 }
 
@@ -288,6 +313,7 @@ VSGLBENCH_PART(AaPair)
 VSGLBENCH_PART(CaseResult)
 VSGLBENCH_PART(DeviceReport)
 VSGLBENCH_PART(SceneReport)
+VSGLBENCH_PART(TimeNoise)
 VSGLBENCH_PART(WallTime)
 #undef VSGLBENCH_PART
 

@@ -54,8 +54,11 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     json.at(Json::json_pointer(pointer.substr(0, slash))).erase(pointer.substr(slash + 1));
     if (violations(json).empty()) optional.push_back(pointer);
   }
-  std::vector<std::string> expected = {"/scenes/0/contact", "/scenes/0/notes", "/aa"};
+  std::vector<std::string> expected = {"/scenes/0/contact", "/scenes/0/notes", "/aa",
+                                       "/environment/host/load_at_start", "/environment/host/load_at_end"};
   for (const char* key : {"effects",
+                          "frame/method",
+                          "frame/host_visibility",
                           "generate/overlap",
                           "generate/gap",
                           "accuracy/smape/ci95",
@@ -106,7 +109,8 @@ TEST(ReportSchema, NullIsNowhereAllowed) {
 }
 
 TEST(ReportSchema, UnknownFieldsAreRefused) {
-  for (const char* object : {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa", "/cases/0",
+  for (const char* object : {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa/0", "/aa/0/times/1",
+                             "/cases/0",
                              "/cases/0/passes/1", "/cases/0/frame", "/cases/0/generate", "/cases/0/accuracy",
                              "/cases/0/accuracy/bias", "/cases/0/accuracy/reference", "/cases/0/seeds/2",
                              "/cases/0/health", "/cases/1/error", "/cases/0/temporal/static"}) {
@@ -180,7 +184,9 @@ TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
                                                  {"/scenes/0/triangles", 1.5},
                                                  {"/scenes/0/light_flux", {1, 2}},
                                                  {"/scenes/0/contact", "/absolute.png"},
-                                                 {"/aa/ratio", 0},
+                                                 {"/aa/0/times/0/ratio", 0},
+                                                 {"/aa/0/times/0/column", "shade"},
+                                                 {"/environment/host/load_at_start", -1},
                                                  {"/cases/0/id", ""},
                                                  {"/cases/0/passes/0/name", "Gen erate"},
                                                  {"/cases/0/passes/0/samples_ms", Json::array()},

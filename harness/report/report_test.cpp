@@ -57,11 +57,33 @@ TEST(Report, PartsComeBackAsTheyWere) {
   };
   for (const auto& c : report.cases) same(c);
   same(synthetic_generation("cornell/fis", 3));
-  same(*report.aa);
+  same(report.aa[0]);
+  same(report.aa[0].times[0]);
   same(report.device);
   same(report.scenes[0]);
   same(report.wall);
   EXPECT_EQ(part_from_json<CaseResult>(part_to_json(report.cases[0])).seeds[5].errors.pixels, 1000u);
+}
+
+// One pair for all scenes, of the frame's time only; no time of the method.
+TEST_F(ReportFile, ReportsOfOldAreRead) {
+  Json old = to_json(synthetic_report());
+  old["aa"] = {{"case", "cornell/mfis"},
+               {"twin", "cornell/mfis#twin"},
+               {"ratio", 1.01},
+               {"ci95", {0.99, 1.02}},
+               {"noise_floor", 0.02}};
+  old["cases"][0]["frame"].erase("method");
+  old["cases"][0]["frame"].erase("host_visibility");
+  write_text(path_, old.dump());
+  const Report r = read_report(path_);
+  ASSERT_EQ(r.aa.size(), 1u);
+  EXPECT_EQ(r.aa[0].scene, "cornell");
+  ASSERT_EQ(r.aa[0].times.size(), 1u);
+  EXPECT_EQ(r.aa[0].times[0].column, "frame");
+  EXPECT_EQ(r.aa[0].times[0].noise_floor, 0.02);
+  EXPECT_EQ(r.cases[0].frame->method->samples, synthetic_report().cases[0].frame->method->samples);
+  EXPECT_FALSE(r.cases[0].frame->host_visibility);
 }
 
 TEST_F(ReportFile, NumbersThatAreNotFiniteAreNamedAndNothingIsWritten) {
@@ -123,12 +145,27 @@ TEST(Report, SumsPassesFrameByFrame) {
                std::invalid_argument);
 }
 
+TEST(Report, TheMethodsTimeIsAllButTheRasterisedPasses) {
+  const std::vector<PassTiming> passes = {{"gbuffer", summarize({1000, 2000, 3000})},
+                                          {"rsm", summarize({100, 200, 300})},
+                                          {"importance.gbuffer", summarize({1, 2, 3})},
+                                          {"generate.rsm.b", summarize({30, 20, 10})},
+                                          {"visibility.ism", summarize({7, 7, 7})},
+                                          {"shade", summarize({50, 50, 60})}};
+  const auto time = method_time(passes);
+  ASSERT_TRUE(time);
+  EXPECT_EQ(time->samples, (std::vector<double>{88, 79, 80}));
+  EXPECT_EQ(time->median, 80);
+  EXPECT_FALSE(method_time({passes[0], passes[1]}));
+}
+
 TEST(Report, AFrameIsItsPassesAndTheRest) {
   const FrameTiming f =
       frame_timing({10, 12, 11}, {{"a", summarize({4, 5, 4})}, {"b", summarize({5, 5, 6})}});
   EXPECT_EQ(f.span.median, 11);
   EXPECT_EQ(f.sum_ms, 10);
   EXPECT_EQ(f.unattributed_ms, 1);
+  EXPECT_EQ(f.method->samples, (std::vector<double>{9, 10, 10}));
   EXPECT_THROW(frame_timing({10}, {{"a", summarize({4, 5})}}), std::invalid_argument);
 }
 

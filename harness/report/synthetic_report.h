@@ -20,6 +20,7 @@ inline CaseResult synthetic_case(const std::string& id) {
               synthetic_pass("generate.rsm.mipmap", 1), synthetic_pass("generate.rsm.filter", 3),
               synthetic_pass("shade", 20)};
   c.frame = frame_timing({27, 33.5, 20.5, 27}, c.passes);
+  c.frame->host_visibility = summarize({90, 110, 100, 100});
   GenerateResult g;
   g.gbuffer_ms = 0.5;
   g.rsm_ms = 4;
@@ -76,23 +77,32 @@ inline CaseResult synthetic_failure(const std::string& id, Status status, const 
   return c;
 }
 
+inline TimeNoise synthetic_noise(const std::string& column, double floor) {
+  const Ratio ratio{1.002, {0.99, 1 + floor}};
+  return {column, ratio, noise_floor(ratio)};
+}
+
 inline Report synthetic_report() {
   Report r;
   r.created = "2024-05-01T12:00:00Z";
   r.argv = {"vsglbench", "run", "configs/quick.json"};
   r.git = {std::string(40, 'a'), true};
   r.device = {"llvmpipe", "cpu", "Mesa", "22.3.6", "1.3.230", 8, 1.0, {{"LP_NATIVE_VECTOR_WIDTH", "512"}}};
-  r.host = {"A CPU", "An OS", 2, 1ull << 33};
+  r.host = {"A CPU", "An OS", 2, 1ull << 33, 0.25, 2.5};
   r.config = {{"name", "quick"}, {"seeds", 8}};
   r.complete = true;
   r.wall = {60, 40, 5, 6, 4, 1.125};
   r.scenes = {
       {"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png", {"a note"}}};
-  r.aa =
-      AaPair{"cornell/mfis", "cornell/mfis#twin", {1.002, {0.99, 1.01}}, noise_floor({1.002, {0.99, 1.01}})};
+  r.aa = {{"cornell",
+           "cornell/mfis",
+           "cornell/mfis#twin",
+           {synthetic_noise("generate", 0.16), synthetic_noise("method", 0.04),
+            synthetic_noise("frame", 0.02)}}};
   r.cases = {synthetic_case("cornell/mfis"),
              synthetic_failure("cornell/vpl", Status::failed, "a NaN in pass shade"),
              synthetic_failure("sponza/vpl", Status::skipped, "sponza.gltf is absent")};
+  r.cases[2].scene = "sponza";
   r.cases[1].health = HealthReport{2, 1, 0, FirstBad{"shade", glm::uvec2(7, 9), std::nullopt}};
   return r;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "report/synthetic_report.h"
@@ -22,26 +23,71 @@ size_t signs(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
+// The first line that starts with `start`, blanks aside.
+std::string line_of(const std::string& table, const std::string& start) {
+  for (const auto& line : split(table)) {
+    if (line.substr(std::min(line.find_first_not_of(' '), line.size())).starts_with(start)) return line;
+  }
+  return "no line starts with " + start;
+}
+
+void expect_parts(const std::string& line, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) EXPECT_NE(line.find(part), std::string::npos) << part << " in: " << line;
+}
+
+CaseResult case_of(const std::string& scene, const std::string& method, const std::string& settings,
+                   double ms) {
+  CaseResult c = synthetic_generation(scene + "/" + method + "/" + settings, ms);
+  c.scene = scene;
+  c.method = method;
+  return c;
+}
+
+Report sweep() {
+  Report r = synthetic_report();
+  r.config["measure"] = "generation";
+  r.cases = {case_of("a", "fis", "N=64,rsm=256", 10), case_of("a", "fis", "N=256,rsm=256", 20),
+             case_of("a", "mfis", "N=64,rsm=256", 30), case_of("a", "mfis", "N=256,rsm=256", 250),
+             case_of("b", "fis", "N=64,rsm=256", 50)};
+  r.aa = {{"a", "x", "y", {synthetic_noise("generate", 0.125)}},
+          {"b", "x", "y", {synthetic_noise("generate", 0.25)}}};
+  return r;
+}
+
 }  // namespace
 
 TEST(Table, OneRowACaseAndAligned) {
   Report r = synthetic_report();
   r.cases.push_back(synthetic_case("a much longer name of a case"));
-  const auto lines = split(terminal_table(r));
-  ASSERT_GE(lines.size(), 5u);
-  EXPECT_NE(lines[0].find("generate ms"), std::string::npos);
-  EXPECT_NE(lines[1].find("12.00 ± "), std::string::npos);
-  EXPECT_NE(lines[1].find("-1.00 ± "), std::string::npos);  // bias in percent
-  EXPECT_NE(lines[1].find(" 4.50 "), std::string::npos);    // generate: 0.5 + 1 + 3
-  EXPECT_TRUE(lines[1].ends_with(" 27.00"));
-  EXPECT_EQ(signs(lines[0]), signs(lines[1]));
-  EXPECT_EQ(signs(lines[0]), signs(lines[4]));
+  const std::string table = terminal_table(r);
+  const std::string head = line_of(table, "case"), row = line_of(table, "mfis");
+  expect_parts(head, {"generate ms", "method ms [95 %]", "visibility ms (host)"});
+  expect_parts(row, {" 12.00 ± ", " -1.00 ± ",  // bias in percent
+                     " 4.50 ",                  // generate: 0.5 + 1 + 3
+                     " 24.50 [18.38, 30.62] ",  // and shade's 20; not gbuffer's 2
+                     " 100 "});                 // rays
+  EXPECT_TRUE(row.ends_with(" 27.00"));
+  EXPECT_EQ(signs(head), signs(row));
+  EXPECT_EQ(signs(head), signs(line_of(table, "a much longer name")));
+}
+
+TEST(Table, ASceneStandsOnceAboveItsCases) {
+  const auto lines = split(terminal_table(synthetic_report()));
+  EXPECT_EQ(lines[1], "cornell");
+  EXPECT_TRUE(lines[2].starts_with("  mfis "));
+  EXPECT_TRUE(lines[3].starts_with("  vpl "));
+  EXPECT_TRUE(lines[4].starts_with("  noise floor "));
+  EXPECT_EQ(lines[5], "sponza");
 }
 
 TEST(Table, FailedAndSkippedCasesSayWhy) {
   const auto lines = split(terminal_table(synthetic_report()));
-  EXPECT_NE(lines[2].find("failed: a NaN in pass shade"), std::string::npos);
-  EXPECT_NE(lines[3].find("skipped: sponza.gltf is absent"), std::string::npos);
+  EXPECT_NE(lines[3].find("failed: a NaN in pass shade"), std::string::npos);
+  EXPECT_NE(lines[6].find("skipped: sponza.gltf is absent"), std::string::npos);
+  Report r = synthetic_report();
+  r.cases.erase(r.cases.begin());  // none is sound
+  expect_parts(terminal_table(r), {"failed: a NaN in pass shade"});
+  expect_parts(markdown_table(r), {"failed: a NaN in pass shade"});
 }
 
 TEST(Table, ErrorsUnderTheFloorAreNotDifferences) {
@@ -54,48 +100,131 @@ TEST(Table, ErrorsUnderTheFloorAreNotDifferences) {
   EXPECT_NE(table.find("undefined"), std::string::npos);
 }
 
+// Each time has its own noise, and each scene: the A/A pair of one says nothing of the other.
+TEST(Table, NoiseStandsUnderEachColumnOfEachScene) {
+  Report r = synthetic_report();
+  CaseResult other = synthetic_case("ring514/mfis");
+  other.scene = "ring514";
+  other.accuracy->reference.noise_floor_smape = 11.5;
+  r.cases = {r.cases[0], other};
+  const auto lines = split(terminal_table(r));
+  expect_parts(lines[3], {"noise floor", " 0.5 ", " 0.001 ", " 16 % ", " 4 % ", " 2 %"});
+  expect_parts(lines[6], {"noise floor", " 12 "});
+  EXPECT_EQ(lines[6].find('%'), std::string::npos) << "a noise that nobody measured: " << lines[6];
+  r.aa.push_back({"ring514", "x", "y", {synthetic_noise("frame", 0.0625)}});
+  expect_parts(split(terminal_table(r))[6], {" 6.2 %"});
+  CaseResult third = other;  // with a reference of its own
+  third.id = "ring514/vpl";
+  third.accuracy->reference.noise_floor_smape = 3;
+  r.cases.push_back(third);
+  expect_parts(split(terminal_table(r))[7], {"noise floor", " 3 … 12 "});
+}
+
+TEST(Table, AColumnThatNoCaseHasIsLeftOut) {
+  Report r = synthetic_report();
+  EXPECT_NE(terminal_table(r).find("visibility"), std::string::npos);
+  r.cases[0].frame->host_visibility.reset();
+  EXPECT_EQ(terminal_table(r).find("visibility"), std::string::npos);
+}
+
 TEST(Table, GenerationAloneIsComparedWithTheScenesFirst) {
   Report r = synthetic_report();
-  r.cases = {synthetic_failure("a/broken", Status::failed, "it crashed"), synthetic_generation("a/mfis", 10),
-             synthetic_generation("a/kmeans", 40), synthetic_generation("b/fis", 20)};
-  r.cases[3].scene = "b";
+  r.cases = {synthetic_failure("a/broken", Status::failed, "it crashed"), case_of("a", "mfis", "", 10),
+             case_of("a", "kmeans", "", 40), case_of("b", "fis", "", 20)};
+  r.cases[0].scene = "a";
   r.config["measure"] = "generation";
   r.config["pdfs_made_by"] = "mfis";
-  const auto lines = split(terminal_table(r));
-  EXPECT_EQ(lines[0].find("SMAPE"), std::string::npos);
-  EXPECT_NE(lines[1].find("failed: it crashed"), std::string::npos);
-  EXPECT_NE(lines[2].find(" 10.00 "), std::string::npos);
-  EXPECT_NE(lines[2].find(" 2.50 "), std::string::npos);  // the G-buffer half
-  EXPECT_NE(lines[2].find(" 7.50 "), std::string::npos);
-  EXPECT_TRUE(lines[2].ends_with(" 1"));
-  EXPECT_NE(lines[3].find(" 4.000 ["), std::string::npos);
-  EXPECT_TRUE(lines[4].ends_with(" 1"));  // another scene
-  EXPECT_EQ(signs(lines[0]), signs(lines[3]));
-  EXPECT_NE(terminal_table(r).find("PDFs, made by mfis"), std::string::npos);
+  const std::string table = terminal_table(r);
+  EXPECT_EQ(table.find("SMAPE"), std::string::npos);
+  expect_parts(line_of(table, "broken"), {"failed: it crashed"});
+  expect_parts(line_of(table, "mfis"), {" 10.00 ", " 2.50 ", " 7.50 "});  // the G-buffer half is the second
+  EXPECT_TRUE(line_of(table, "mfis").ends_with(" 1"));
+  expect_parts(line_of(table, "kmeans"), {" 4.000 ["});
+  EXPECT_TRUE(line_of(table, "fis").ends_with(" 1"));  // another scene
+  EXPECT_EQ(signs(line_of(table, "case")), signs(line_of(table, "kmeans")));
+  expect_parts(table, {"PDFs, made by mfis"});
   const auto rows = split(markdown_table(r));
   for (size_t i = 0; i < 6; ++i) EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), '|'), 6) << rows[i];
 }
 
+TEST(Table, CasesAreNamedByWhatTellsThemApart) {
+  const std::string table = terminal_table(sweep());
+  expect_parts(line_of(table, "mfis N=256"), {" 250 "});
+  EXPECT_EQ(table.find("mfis N=256,rsm"), std::string::npos);
+  expect_parts(line_of(table, "every case"), {"every case: rsm=256"});
+}
+
+TEST(Table, MethodsAcross) {
+  const auto rows = split(markdown_table(sweep(), {{"generate", "ratio"}, {}, "method", ""}));
+  EXPECT_EQ(rows[0], "| case | fis | mfis | noise floor |");
+  EXPECT_EQ(rows[2], "| a N=64 | 10.00 / 1.00 | 30.00 / 3.00 | 12 % / 12 % |");
+  EXPECT_EQ(rows[3], "| a N=256 | 20.00 / 2.00 | 250 / 25.00 | 12 % / 12 % |");
+  EXPECT_EQ(rows[4], "| b N=64 | 50.00 / 1.00 | | 25 % / 25 % |");  // of mfis no such case
+  EXPECT_EQ(rows[6], "each cell: generate ms / x first;");
+}
+
+TEST(Table, NoiseThatNobodyMeasuredHasNoPlaceAcross) {
+  Report r = sweep();
+  r.aa.clear();
+  EXPECT_EQ(split(markdown_table(r, {{"generate"}, {}, "method", ""}))[0], "| case | fis | mfis |");
+  EXPECT_EQ(markdown_table(r, {{"generate"}, {}, "scene", ""}).find("noise floor"), std::string::npos);
+  r.aa = {{"a", "x", "y", {synthetic_noise("generate.rsm", 0.125)}}};
+  const auto rows = split(markdown_table(r, {{"generate", "generate.rsm"}, {"a/*"}, "method", ""}));
+  EXPECT_EQ(rows[2], "| a N=64 | 10.00 / 7.50 | 30.00 / 22.50 | - / 12 % |");
+}
+
+TEST(Table, ScenesOrAKeyAcross) {
+  const auto scenes = split(markdown_table(sweep(), {{"generate"}, {"*/N=64,*"}, "scene", ""}));
+  EXPECT_EQ(scenes[0], "| case | a | b |");
+  EXPECT_EQ(scenes[2], "| fis | 10.00 | 50.00 |");
+  EXPECT_EQ(scenes[3], "| mfis | 30.00 | |");
+  EXPECT_EQ(scenes[4], "| noise floor | 12 % | 25 % |");
+  const auto keys = split(markdown_table(sweep(), {{"generate"}, {"a/*"}, "N", ""}));
+  EXPECT_EQ(keys[0], "| case | N=64 | N=256 | noise floor |");
+  EXPECT_EQ(keys[3], "| a mfis | 30.00 | 250 | 12 % |");
+}
+
+TEST(Table, WhatIsNotInTheReportIsRefused) {
+  EXPECT_THROW(terminal_table(sweep(), {{"smape"}, {}, "", ""}), Error);  // generation alone has no errors
+  EXPECT_THROW(terminal_table(sweep(), {{}, {"c/*"}, "", ""}), Error);
+  EXPECT_THROW(terminal_table(sweep(), {{}, {}, "K", ""}), Error);
+}
+
 TEST(Table, SaysWhatTheTimesAreWorth) {
   Report r = synthetic_report();
-  EXPECT_NE(terminal_table(r).find("do not compare its times with a GPU's"), std::string::npos);
-  EXPECT_NE(terminal_table(r).find("less than 1 % are noise"), std::string::npos);
+  expect_parts(terminal_table(r), {"do not compare its times with a GPU's", "host: A CPU, 2 cores"});
+  EXPECT_EQ(terminal_table(r).find("busy"), std::string::npos);  // load 0.25
   EXPECT_EQ(terminal_table(r).find("incomplete"), std::string::npos);
   r.complete = false;
   r.device.type = "discrete";
-  EXPECT_NE(terminal_table(r).find("incomplete"), std::string::npos);
+  r.host.load_at_start = 1.25;
+  expect_parts(terminal_table(r),
+               {"incomplete", "the machine was busy when the run began: load 1.25 on 2 cores"});
   EXPECT_EQ(terminal_table(r).find("do not compare"), std::string::npos);
+  r.host.load_at_start = 1;  // half of the cores
+  EXPECT_EQ(terminal_table(r).find("busy"), std::string::npos);
 }
 
-TEST(Table, MarkdownHasSixColumnsInEveryRow) {
+TEST(Table, MarkdownHasItsColumnsInEveryRow) {
   Report r = synthetic_report();
   r.cases[1].error->message = "a | b";
   const auto lines = split(markdown_table(r));
-  for (size_t i = 0; i < 5; ++i) {
+  for (size_t i = 0; i < 6; ++i) {
     size_t bars = 0;
     for (size_t k = 0; k < lines[i].size(); ++k)
       bars += lines[i][k] == '|' && (k == 0 || lines[i][k - 1] != '\\');
-    EXPECT_EQ(bars, 7u) << lines[i];
+    EXPECT_EQ(bars, 9u) << lines[i];
   }
-  EXPECT_EQ(split(markdown_table(Report())).size(), 6u);  // heads, rule, two notes
+}
+
+TEST(Table, NothingOfAReportReachesTheTerminalRaw) {
+  Report r = synthetic_report();
+  r.cases[0].id = "cornell/\x1b[2Jmfis";
+  r.cases[1].error->message = "two\nlines\x7f";
+  r.device.name = "\x1b]0;title\x07";
+  for (const auto& table : {terminal_table(r), markdown_table(r)}) {
+    EXPECT_TRUE(std::ranges::none_of(
+        table, [](char c) { return c != '\n' && (static_cast<unsigned char>(c) < 0x20 || c == 0x7f); }));
+    EXPECT_EQ(table.find("two\nlines"), std::string::npos);
+  }
 }

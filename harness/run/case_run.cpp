@@ -110,10 +110,10 @@ FrameTimes CaseRun::render(uint32_t seed) {
   const Stopwatch watch;
   FrameTimes times = config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs)
                                                             : frame_->render(seed);
-  const double device_s = times.span_ms * 1e-3;
+  const double device_s = times.span_ms * 1e-3, visibility_s = wall_->visibility_s - visibility_before;
   wall_->device_s += device_s;
+  if (visibility_s > 0) rays_ms_.push_back(1e3 * visibility_s);
   if (!rendered_) {
-    const double visibility_s = wall_->visibility_s - visibility_before;
     wall_->compilation_s += std::max(0.0, watch.seconds() - device_s - visibility_s);
   }
   rendered_ = true;
@@ -274,6 +274,7 @@ CaseResult CaseRun::result() const {
     r.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
   if (!span_ms_.empty()) {
     r.frame = frame_timing(span_ms_, r.passes);
+    if (!rays_ms_.empty()) r.frame->host_visibility = summarize(rays_ms_);
     const auto total = sum_of_passes(r.passes, {"generate."});
     const auto gbuffer = sum_of_passes(r.passes, {"generate.gbuffer."});
     const auto rsm = sum_of_passes(r.passes, {"generate.rsm."});

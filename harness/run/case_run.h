@@ -65,7 +65,6 @@ class CaseRun {
   const Mask& mask() const {
     return mask_;
   }  // pixels with a surface for the rasteriser and the reference alike
-  const std::vector<double>& span_samples() const { return span_ms_; }
   Frame* frame() { return frame_.get(); }  // null before open() and after a failure
 
  private:
@@ -95,6 +94,7 @@ class CaseRun {
   std::vector<std::string> pass_names_;
   std::vector<std::vector<double>> pass_ms_;  // of each pass, one a frame
   std::vector<double> span_ms_;
+  std::vector<double> rays_ms_;  // of exact visibility on the host, in each frame that traced any
   std::vector<SeedResult> seeds_;
   std::optional<ErrorQuantiles> quantiles_;
   std::optional<FlipExposures> flip_exposures_;  // chosen with the first seed

@@ -61,7 +61,8 @@ TEST_F(GenerationTest, TimesTheGeneratePassesAndNothingElse) {
     EXPECT_EQ(c.generate->gbuffer_ms > 0, gbuffer) << c.id;
     EXPECT_GT(c.generate->rsm_ms, 0);
   }
-  ASSERT_TRUE(r.aa.has_value());
+  ASSERT_EQ(r.aa.size(), 1u);
+  EXPECT_EQ(r.aa[0].times.at(0).column, "generate");
   EXPECT_FALSE(fs::exists(out_ / "images"));
   EXPECT_EQ(r.wall.references_s, 0);
   EXPECT_EQ(r.wall.visibility_s, 0);

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "image/exr.h"
 #include "image/png.h"
+#include "report/noise.h"
 #include "run/run_fixture.h"
 
 namespace fs = std::filesystem;
@@ -73,12 +74,21 @@ TEST_F(RunTest, WritesAReportThatHoldsEverything) {
     EXPECT_EQ(c.generate->lights, c.method == "all-texels" ? 256u : 16u);
     EXPECT_GT(c.generate->shaders, 0u);
     EXPECT_GT(c.frame->span.median, 0);
+    EXPECT_LT(c.frame->method->median, c.frame->span.median);
+    ASSERT_TRUE(c.frame->host_visibility) << c.id;
+    // Warm-up and seed 0 have the same lights, which are traced once.
+    EXPECT_EQ(c.frame->host_visibility->samples.size(), c.method == "all-texels" ? 1u : 2u);
+    EXPECT_GT(c.frame->host_visibility->min, 0);
     EXPECT_EQ(c.stopping->frames, 2u);
     expect_passes(c, c.method != "all-texels");
   }
-  ASSERT_TRUE(r.aa.has_value());
-  EXPECT_EQ(r.aa->case_id, r.cases.front().id);
-  EXPECT_GT(r.aa->ratio.value, 0);
+  ASSERT_EQ(r.aa.size(), 1u);
+  EXPECT_EQ(r.aa[0].scene, "cornell");
+  EXPECT_EQ(r.aa[0].case_id, r.cases.front().id);
+  std::vector<std::string> times;
+  for (const TimeNoise& time : r.aa[0].times) times.push_back(time.column);
+  EXPECT_EQ(times, time_columns());
+  EXPECT_TRUE(r.host.load_at_start && r.host.load_at_end);
   EXPECT_EQ(r.scenes.at(0).triangles, 30u);
 }
 
@@ -177,6 +187,7 @@ TEST_F(RunTest, AnInterruptedRunGoesOn) {
   stopped.complete = false;
   stopped.cases.pop_back();
   stopped.scenes.pop_back();
+  stopped.aa.pop_back();
   write_report(out_ / "report.json", stopped);
   EXPECT_EQ(run().exit_code, 0);
   const Report resumed = report();
@@ -186,7 +197,9 @@ TEST_F(RunTest, AnInterruptedRunGoesOn) {
   EXPECT_EQ(resumed.created, stopped.created);
   EXPECT_EQ(resumed.cases[0].frame->span.median, kept);
   EXPECT_NE(resumed.cases[1].frame->span.median, lost);
-  EXPECT_EQ(resumed.aa->case_id, stopped.aa->case_id);
+  ASSERT_EQ(resumed.aa.size(), 2u);  // one a scene; the first scene's as it was
+  EXPECT_EQ(part_to_json(resumed.aa[0]), part_to_json(stopped.aa[0]));
+  EXPECT_EQ(resumed.aa[1].scene, "ring514");
   EXPECT_GT(resumed.wall.total_s, stopped.wall.total_s);
   EXPECT_FALSE(fs::exists(out_ / "report.previous.json"));
 }
@@ -237,7 +250,7 @@ TEST_F(RunTest, ImpossibleNumbersOfLightsFailTheirCasesOnly) {
   EXPECT_EQ(find(r, "cornell/vpl/N=257,rsm=16,vis=exact").status, Status::failed);
   EXPECT_TRUE(contains(find(r, "cornell/vpl/N=257,rsm=16,vis=exact").error->message, "use 1 … 256"));
   EXPECT_EQ(find(r, "cornell/vpl/N=256,rsm=16,vis=exact").status, Status::ok);
-  EXPECT_EQ(r.aa->case_id, "cornell/vpl/N=8,rsm=16,vis=exact");
+  EXPECT_EQ(r.aa.at(0).case_id, "cornell/vpl/N=8,rsm=16,vis=exact");
 }
 
 TEST_F(RunTest, VisibilitiesHaveTheirOwnReferences) {
@@ -247,6 +260,8 @@ TEST_F(RunTest, VisibilitiesHaveTheirOwnReferences) {
   const auto hash = [&](const char* vis) {
     return find(r, fmt::format("cornell/vpl/N=16,rsm=16,vis={}", vis)).accuracy->reference.hash;
   };
+  for (const auto& c : r.cases)  // only `exact` asks the host for rays
+    EXPECT_EQ(c.frame->host_visibility.has_value(), c.id.ends_with("vis=exact")) << c.id;
   EXPECT_EQ(hash("exact"), hash("ism"));
   EXPECT_NE(hash("exact"), hash("none"));
 }

@@ -72,10 +72,10 @@ SceneOutcome take_scene(Report* report, const std::string& scene) {
   }
   std::erase_if(report->scenes, [&](const SceneReport& s) { return s.name == scene; });
   std::erase_if(report->cases, [&](const CaseResult& c) { return c.scene == scene; });
-  if (report->aa && report->aa->case_id.starts_with(scene + "/")) {
-    if (!out.cases.empty()) out.aa = report->aa;
-    report->aa.reset();
+  for (const AaPair& pair : report->aa) {
+    if (pair.scene == scene && !out.cases.empty()) out.aa = pair;
   }
+  std::erase_if(report->aa, [&](const AaPair& pair) { return pair.scene == scene; });
   return out;
 }
 
@@ -97,7 +97,7 @@ void refuse_invalid(CaseResult* result) {
 
 void add(SceneOutcome outcome, const std::vector<Case>& planned, Report* report) {
   if (outcome.scene) report->scenes.push_back(*outcome.scene);
-  if (outcome.aa) report->aa = outcome.aa;
+  if (outcome.aa) report->aa.push_back(*outcome.aa);
   sort_like(planned, &outcome.cases);
   for (CaseResult& result : outcome.cases) refuse_invalid(&result);
   std::move(outcome.cases.begin(), outcome.cases.end(), std::back_inserter(report->cases));
@@ -178,11 +178,13 @@ RunOutcome run_config(const RunOptions& options) {
   outcome.report_path = store.path();
   Report& report = outcome.report = store.open(fresh_report(options, config, device), options.force);
   if (!report.cases.empty()) log_info("going on with the interrupted run in {}", store.path().string());
+  report.host.load_at_start = std::max(report.host.load_at_start, load_average());  // of all its starts
   const WallTime earlier = report.wall;
   WorkerLog log;
   const auto save = [&](Report& state) {
     for (SceneReport& scene : state.scenes) scene.notes = accuracy_notes(state.cases, scene.name);
     state.wall = sum(earlier, log.wall, watch.seconds());
+    state.host.load_at_end = load_average();
     store.save(state);
   };
 
@@ -196,7 +198,7 @@ RunOutcome run_config(const RunOptions& options) {
       save(so_far);
     };
     if (log.device_gone.empty()) {
-      const bool aa = !options.check_passes && !report.aa && !done.aa;
+      const bool aa = !options.check_passes && !done.aa;
       run_scene_in_workers(scene, config, wanted, aa, workers, save_so_far, &done, &log);
     } else {
       for (auto& result : failed_cases(wanted, config, "device", "the device was lost in an earlier scene"))

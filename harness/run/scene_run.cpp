@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "measure/stopwatch.h"
+#include "report/noise.h"
 #include "run/memory.h"
 #include "run/references.h"
 #include "run/scene_images.h"
@@ -207,7 +208,7 @@ void SceneRun::conclude(CaseRun& run) {
   results_.push_back(std::move(result));
 }
 
-// Nothing when either failed, or the device's clock saw no time pass.
+// Nothing when either failed.
 void SceneRun::pair_twin() {
   const CaseRun& twin = runs_.back();
   const auto original = std::find_if(runs_.begin(), runs_.end(), [&](const CaseRun& run) {
@@ -216,14 +217,7 @@ void SceneRun::pair_twin() {
   if (!original->concluded() || !twin.concluded()) return;
   paired_ = true;
   if (original->failed() || twin.failed()) return;
-  const auto positive = [](const std::vector<double>& samples) {
-    return std::all_of(samples.begin(), samples.end(), [](double s) { return s > 0; });
-  };
-  if (!positive(original->span_samples()) || !positive(twin.span_samples())) return;
-  AaPair pair{original->description().id, twin.description().id, {}, 0};
-  pair.ratio = median_ratio(original->span_samples(), twin.span_samples());
-  pair.noise_floor = noise_floor(pair.ratio);
-  observer_.paired(pair);
+  observer_.paired(aa_pair(original->result(), twin.result()));
 }
 
 void SceneRun::draw_sheet() {

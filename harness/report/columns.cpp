@@ -1,0 +1,133 @@
+#include "report/columns.h"
+
+#include <algorithm>
+
+#include "report/metric_cell.h"
+#include "report/noise.h"
+
+namespace vsglbench {
+namespace {
+
+using Floor = std::optional<double> (*)(const ReferenceInfo&);
+
+// --- errors ---
+
+std::string number_of(const MetricResult& metric, double scale, const char* format) {
+  if (!metric.value) return "undefined";
+  const double value = metric.heavy_tailed ? *metric.median : *metric.value;
+  return fmt::format(fmt::runtime(format), value * scale);
+}
+
+// "4.2", or "4.2 … 7.1" where cases of a scene have references of different noise.
+std::string floors_of(const Report& report, const std::string& scene, double scale, Floor floor) {
+  std::vector<double> all;
+  for (const CaseResult& c : report.cases) {
+    if (c.scene != scene || !c.accuracy) continue;
+    if (const auto value = floor(c.accuracy->reference)) all.push_back(*value * scale);
+  }
+  if (all.empty()) return "";
+  const auto [least, most] = std::ranges::minmax(all);
+  const std::string text = fmt::format("{:.2g}", least), other = fmt::format("{:.2g}", most);
+  return text == other ? text : text + " … " + other;
+}
+
+Column error_column(const char* name, const char* head, MetricResult Accuracy::*metric, double scale,
+                    const char* format, Floor floor) {
+  Column column{name, head, {}, {}, {}};
+  column.cell = [=](const CaseResult& c, const CaseResult&) {
+    if (!c.accuracy || (*c.accuracy.*metric).empty()) return std::string();  // a report of old has fewer
+    return metric_cell(*c.accuracy.*metric, scale, format, floor(c.accuracy->reference));
+  };
+  column.number = [=](const CaseResult& c, const CaseResult&) {
+    const bool known = c.accuracy && !(*c.accuracy.*metric).empty();
+    return known ? number_of(*c.accuracy.*metric, scale, format) : "";
+  };
+  column.floor = [=](const Report& report, const std::string& scene) {
+    return floors_of(report, scene, scale, floor);
+  };
+  return column;
+}
+
+std::optional<double> unknown_floor(const ReferenceInfo&) { return std::nullopt; }
+
+// --- times ---
+
+std::string ms(double value) {
+  return value < 100 ? fmt::format("{:.2f}", value) : fmt::format("{:.0f}", value);
+}
+
+std::function<std::string(const Report&, const std::string&)> noise_floor_of(const std::string& time) {
+  return [=](const Report& report, const std::string& scene) {
+    const TimeNoise* noise = noise_of(report, scene, time);
+    return noise ? percent(noise->noise_floor) : "";
+  };
+}
+
+// `name` is that of a time and of its noise. With the median's 95 % interval where `interval` says so.
+Column time_column(const char* name, const char* head, bool interval = false) {
+  Column column{name, head, {}, {}, noise_floor_of(name)};
+  column.number = [=](const CaseResult& c, const CaseResult&) {
+    const auto time = time_of(c, name);
+    return time ? ms(time->median) : "";
+  };
+  column.cell = [=](const CaseResult& c, const CaseResult&) {
+    const auto time = time_of(c, name);
+    if (!time) return std::string();
+    return interval ? fmt::format("{} [{}, {}]", ms(time->median), ms(time->ci95.lo), ms(time->ci95.hi))
+                    : ms(time->median);
+  };
+  return column;
+}
+
+// Of light generation, to the scene's first sound case.
+std::optional<Ratio> ratio_to(const CaseResult& c, const CaseResult& first) {
+  const Summary &a = c.generate->total, &b = first.generate->total;
+  if (a.min <= 0 || b.min <= 0) return std::nullopt;  // the device's clock saw no time pass
+  return median_ratio(a.samples, b.samples);
+}
+
+Column ratio_column() {
+  Column column{"ratio", "x first [95 %]", {}, {}, noise_floor_of("generate")};
+  column.cell = [](const CaseResult& c, const CaseResult& first) -> std::string {
+    if (!c.generate) return "";
+    if (c.id == first.id) return "1";
+    const auto r = ratio_to(c, first);
+    return r ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", r->value, r->ci95.lo, r->ci95.hi) : "undefined";
+  };
+  column.number = [](const CaseResult& c, const CaseResult& first) -> std::string {
+    if (!c.generate) return "";
+    const auto r = ratio_to(c, first);
+    return r ? fmt::format("{:.2f}", r->value) : "undefined";
+  };
+  return column;
+}
+
+}  // namespace
+
+const std::vector<Column>& frame_columns() {
+  static const std::vector<Column> columns = {
+      error_column("smape", "SMAPE %", &Accuracy::smape, 1, "{:.2f}",
+                   [](const ReferenceInfo& r) { return std::optional(r.noise_floor_smape); }),
+      error_column("smape_lit", "SMAPE lit %", &Accuracy::smape_lit, 1, "{:.2f}",
+                   [](const ReferenceInfo& r) { return r.noise_floor_smape_lit; }),
+      error_column("rmse", "RMSE", &Accuracy::rmse, 1, "{:.4g}",
+                   [](const ReferenceInfo& r) { return r.noise_floor_rmse; }),
+      error_column("flip", "flip", &Accuracy::flip, 1, "{:.4f}",
+                   [](const ReferenceInfo& r) { return r.noise_floor_flip; }),
+      error_column("bias", "bias %", &Accuracy::bias, 100, "{:+.2f}", unknown_floor),
+      time_column("generate", "generate ms"),
+      time_column("method", "method ms [95 %]", true),
+      time_column("visibility", "visibility ms (host)"),
+      time_column("frame", "frame ms"),
+  };
+  return columns;
+}
+
+const std::vector<Column>& generation_columns() {
+  static const std::vector<Column> columns = {time_column("generate", "generate ms"),
+                                              time_column("generate.gbuffer", "G-buffer ms"),
+                                              time_column("generate.rsm", "RSM ms"), ratio_column()};
+  return columns;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,80 @@
+#include "report/noise.h"
+
+#include <algorithm>
+
+namespace vsglbench {
+namespace {
+
+bool all_positive(const Summary& time) {
+  return std::all_of(time.samples.begin(), time.samples.end(), [](double s) { return s > 0; });
+}
+
+const AaPair* pair_of(const Report& report, const std::string& scene) {
+  for (const AaPair& pair : report.aa) {
+    if (pair.scene == scene) return &pair;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string percent(double share) {
+  return share < 1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
+const std::vector<std::string>& time_columns() {
+  static const std::vector<std::string> names = {"generate", "generate.gbuffer", "generate.rsm",
+                                                 "method",   "visibility",       "frame"};
+  return names;
+}
+
+std::optional<Summary> time_of(const CaseResult& c, const std::string& column) {
+  if (column == "generate") return c.generate ? std::optional(c.generate->total) : std::nullopt;
+  if (column.starts_with("generate.")) return sum_of_passes(c.passes, {column + "."});
+  if (!c.frame) return std::nullopt;
+  if (column == "method") return c.frame->method;
+  if (column == "visibility") return c.frame->host_visibility;
+  if (column == "frame") return c.frame->span;
+  throw std::logic_error("no time is named " + column);
+}
+
+AaPair aa_pair(const CaseResult& original, const CaseResult& twin) {
+  AaPair pair{original.scene, original.id, twin.id, {}};
+  for (const std::string& column : time_columns()) {
+    const auto a = time_of(original, column), b = time_of(twin, column);
+    if (!a || !b || !all_positive(*a) || !all_positive(*b)) continue;
+    const Ratio ratio = median_ratio(a->samples, b->samples);
+    pair.times.push_back({column, ratio, noise_floor(ratio)});
+  }
+  return pair;
+}
+
+const TimeNoise* noise_of(const Report& report, const std::string& scene, const std::string& column) {
+  const AaPair* pair = pair_of(report, scene);
+  if (!pair) return nullptr;
+  for (const TimeNoise& time : pair->times) {
+    if (time.column == column) return &time;
+  }
+  return nullptr;
+}
+
+std::optional<std::string> noise_over(const Report& report, double limit) {
+  for (const CaseResult& c : report.cases) {
+    if (c.status == Status::ok && !pair_of(report, c.scene))
+      return fmt::format("{}: no case was measured twice, so its noise is unknown", c.scene);
+  }
+  const AaPair* noisy = nullptr;
+  const TimeNoise* worst = nullptr;
+  for (const AaPair& pair : report.aa) {
+    for (const TimeNoise& time : pair.times) {
+      if (worst && time.noise_floor <= worst->noise_floor) continue;
+      noisy = &pair;
+      worst = &time;
+    }
+  }
+  if (!worst || worst->noise_floor <= limit) return std::nullopt;
+  return fmt::format("{}: the time '{}' of one case measured twice differs by up to {}, over {:g} %",
+                     noisy->scene, worst->column, percent(worst->noise_floor), 100 * limit);
+}
+
+}  // namespace vsglbench

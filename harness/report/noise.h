@@ -1,0 +1,32 @@
+// The times of a case under the names that a table's columns have, and what is noise in each.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "report/report.h"
+
+namespace vsglbench {
+
+// Names of times: "generate", both halves of light generation; "generate.gbuffer" and "generate.rsm", either
+// half; "method", all passes but gbuffer and rsm; "visibility", the host's shadow rays; "frame", the span of
+// all passes.
+const std::vector<std::string>& time_columns();
+
+// ms of each frame; nothing when the case has no such time.
+std::optional<Summary> time_of(const CaseResult& c, const std::string& column);
+
+// The noise of every time of which both have samples above 0 only.
+AaPair aa_pair(const CaseResult& original, const CaseResult& twin);
+
+// A share as "4.2 %" or "340 %".
+std::string percent(double share);
+
+// Null where the scene has no A/A pair, or its pair not this time.
+const TimeNoise* noise_of(const Report& report, const std::string& scene, const std::string& column);
+
+// One line that names scene, time and noise where that is noisiest, if it is over `limit` (relative); or the
+// first scene with a sound case and no A/A pair, whose noise nobody knows. Nothing: quiet enough.
+std::optional<std::string> noise_over(const Report& report, double limit);
+
+}  // namespace vsglbench

@@ -1,0 +1,89 @@
+#include "report/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "report/synthetic_report.h"
+
+using namespace vsglbench;
+
+namespace {
+
+// The times of both halves, of another pass and of the rest of a frame, ms, the same in every frame.
+CaseResult measured(double gbuffer_half, double rsm_half, double shade, double raster) {
+  CaseResult c;
+  c.id = "cornell/mfis";
+  c.scene = "cornell";
+  const auto steady = [](double ms) { return summarize(std::vector<double>(8, ms)); };
+  c.passes = {{"gbuffer", steady(raster)},
+              {"rsm", steady(raster)},
+              {"generate.gbuffer.sample", steady(gbuffer_half)},
+              {"generate.rsm.sample", steady(rsm_half)},
+              {"shade", steady(shade)}};
+  const double frame = gbuffer_half + rsm_half + shade + 2 * raster;
+  c.frame = frame_timing(std::vector<double>(8, frame), c.passes);
+  c.generate.emplace().total = *sum_of_passes(c.passes, {"generate."});
+  return c;
+}
+
+double floor_of(const AaPair& pair, const std::string& column) {
+  for (const TimeNoise& time : pair.times) {
+    if (time.column == column) return time.noise_floor;
+  }
+  return -1;
+}
+
+}  // namespace
+
+// One half takes 1.5 times as long in one of the two: each time shows its own share of that.
+TEST(Noise, EachTimeHasItsOwn) {
+  const AaPair pair = aa_pair(measured(1, 3, 6, 10), measured(1, 2, 6, 10));
+  EXPECT_EQ(pair.scene, "cornell");
+  EXPECT_NEAR(floor_of(pair, "generate"), 4.0 / 3 - 1, 1e-12);
+  EXPECT_NEAR(floor_of(pair, "generate.gbuffer"), 0, 1e-12);
+  EXPECT_NEAR(floor_of(pair, "generate.rsm"), 0.5, 1e-12);
+  EXPECT_NEAR(floor_of(pair, "method"), 10.0 / 9 - 1, 1e-12);
+  EXPECT_NEAR(floor_of(pair, "frame"), 30.0 / 29 - 1, 1e-12);
+  EXPECT_EQ(floor_of(pair, "visibility"), -1);  // no rays were traced
+  const AaPair twisted = aa_pair(measured(1, 2, 6, 10), measured(1, 3, 6, 10));
+  EXPECT_NEAR(floor_of(twisted, "generate.rsm"), 0.5, 1e-12);  // whichever is slower
+}
+
+TEST(Noise, ATimeThatTheClockDidNotSeeIsLeftOut) {
+  const AaPair pair = aa_pair(measured(0, 2, 6, 10), measured(1, 2, 6, 10));
+  EXPECT_EQ(floor_of(pair, "generate.gbuffer"), -1);
+  EXPECT_NEAR(floor_of(pair, "generate.rsm"), 0, 1e-12);
+}
+
+TEST(Noise, EveryNamedTimeIsKnown) {
+  const CaseResult c = synthetic_case("cornell/mfis");
+  for (const auto& column : time_columns()) EXPECT_TRUE(time_of(c, column)) << column;
+  EXPECT_THROW(time_of(c, "shade"), std::logic_error);
+}
+
+TEST(Noise, TheNoisiestTimeOfAllScenesIsNamed) {
+  Report r = synthetic_report();
+  r.aa.push_back({"ring514", "ring514/mfis", "ring514/mfis#twin", {synthetic_noise("generate.rsm", 0.22)}});
+  EXPECT_FALSE(noise_over(r, 0.23));
+  const auto line = noise_over(r, 0.05);
+  ASSERT_TRUE(line);
+  for (const char* part : {"ring514", "'generate.rsm'", "22 %", "over 5 %"})
+    EXPECT_NE(line->find(part), std::string::npos) << *line;
+  r.aa.pop_back();
+  EXPECT_NE(noise_over(r, 0.05)->find("cornell: the time 'generate'"), std::string::npos);
+}
+
+TEST(Noise, IsPrintedAsAPercentage) {
+  EXPECT_EQ(percent(0.0416), "4.2 %");
+  EXPECT_EQ(percent(0.12), "12 %");
+  EXPECT_EQ(percent(3.404), "340 %");
+}
+
+TEST(Noise, AnUnknownNoiseIsTooMuch) {
+  Report r = synthetic_report();
+  r.aa.clear();
+  EXPECT_NE(noise_over(r, 0.5)->find("cornell"), std::string::npos);
+  r.cases.erase(r.cases.begin());  // the failed and skipped ones have no times
+  EXPECT_FALSE(noise_over(r, 0.5));
+}

@@ -1,0 +1,60 @@
+#include "report/table_notes.h"
+
+namespace vsglbench {
+namespace {
+
+std::string count_of(const Json& config, const char* key, const char* what) {
+  return config.contains(key) ? fmt::format(", {} {}", config[key].dump(), what) : "";
+}
+
+std::string setting_note(const Report& report, const std::string& shared) {
+  const Json& config = report.config;
+  std::string out = shared;
+  const Json frame = config.value("frame", Json::object());
+  if (frame.contains("width") && frame.contains("height"))
+    out += fmt::format(", {}×{} pixels", frame["width"].dump(), frame["height"].dump());
+  out += count_of(config, "importance_lights", "importance lights") + count_of(config, "seeds", "seeds");
+  if (config.contains("reference"))
+    out += count_of(config["reference"], "samples", "samples a pixel of the reference");
+  return out.starts_with(", ") ? out.substr(2) : out;
+}
+
+std::string device_note(const Report& report) {
+  const DeviceReport& d = report.device;
+  return fmt::format("device: {}, {}, {}; host: {}, {} cores", d.name, d.driver_version,
+                     d.type == "cpu" ? "a CPU: do not compare its times with a GPU's" : d.type + " GPU",
+                     report.host.cpu, report.host.cores);
+}
+
+std::string source_note(const Report& report, const std::string& link) {
+  return fmt::format("[report]({}) of {}, commit {}{}", link, report.created.substr(0, 10),
+                     report.git.commit.substr(0, 7), report.git.dirty ? " with changes" : "");
+}
+
+}  // namespace
+
+std::vector<std::string> table_notes(const Report& report, const std::string& shared,
+                                     const std::string& link) {
+  std::vector<std::string> out;
+  const std::string settings = setting_note(report, shared);
+  if (!settings.empty()) out.push_back("every case: " + settings);
+  out.push_back(device_note(report));
+  const HostInfo& host = report.host;
+  if (host.load_at_start && *host.load_at_start > 0.5 * host.cores) {
+    out.push_back(fmt::format("the machine was busy when the run began: load {:.2f} on {} cores",
+                              *host.load_at_start, host.cores));
+  }
+  if (report.config.value("measure", "") == "generation") {
+    out.push_back(fmt::format(
+        "only generation was measured: every case of a scene on the same halves and PDFs, made by {}",
+        report.config.value("pdfs_made_by", "an unknown method")));
+  }
+  for (const SceneReport& scene : report.scenes) {
+    for (const auto& note : scene.notes) out.push_back(scene.name + ": " + note);
+  }
+  if (!report.complete) out.push_back("incomplete: the run was stopped before its last case");
+  if (!link.empty()) out.push_back(source_note(report, link));
+  return out;
+}
+
+}  // namespace vsglbench
