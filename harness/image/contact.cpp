@@ -162,6 +162,13 @@ std::vector<Cell> make_cells(const ContactSheet& sheet, const TileSize& size) {
   return cells;
 }
 
+// Where the text says so it goes on in a new line, else where it has to.
+std::vector<std::string> detail_lines(const std::string& text, uint32_t width) {
+  const size_t end = text.find('\n');
+  if (end == std::string::npos) return wrap_text(text, width, kScale);
+  return {fit_text(text.substr(0, end), width, kScale), fit_text(text.substr(end + 1), width, kScale)};
+}
+
 // As many columns as fit, then as few as need the same number of rows.
 uint32_t column_count(const ContactSheet& sheet, uint32_t tile_width) {
   const auto cells = static_cast<uint32_t>(sheet.entries.size() + 1);
@@ -192,7 +199,7 @@ Bitmap contact_sheet(const ContactSheet& sheet) {
     const uint32_t x = kMargin + i % columns * (size.width + kGap);
     const uint32_t y = kMargin + kTitleHeight + i / columns * (cell_height + kGap);
     draw_text(out, x, y, fit_text(cells[i].caption, size.width, kScale), kInk, kScale);
-    const std::vector<std::string> detail = wrap_text(cells[i].detail, size.width, kScale);
+    const std::vector<std::string> detail = detail_lines(cells[i].detail, size.width);
     for (uint32_t line = 0; line < std::min<size_t>(detail.size(), kDetailLines); ++line)
       draw_text(out, x, y + (1 + line) * kLine, detail[line], kFaint, kScale);
     blit(out, x, y + head, cells[i].upper);

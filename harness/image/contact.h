@@ -13,7 +13,8 @@ namespace vsglbench {
 // One method's column. Without an image (a failed or skipped case) the tile shows `detail` instead.
 struct ContactEntry {
   std::string caption;  // first line, such as "mfis  N=256"
-  std::string detail;   // two further lines, such as "SMAPE 12.3 %   bias -0.4 %"; broken at spaces
+  std::string detail;  // two further lines, such as "SMAPE 12.3 %   bias -0.4 %"; broken at its newline, else
+                       // at spaces
   std::optional<Image> image;
   std::optional<Image> reference;  // where the case has another reference than the sheet's
 };

@@ -112,6 +112,8 @@ TEST(Contact, ALongDetailGoesOnInASecondLine) {
   const Bitmap full = contact_sheet(s);
   s.entries[0].detail += " -19.9% FLIP 0.123";
   const Bitmap two = contact_sheet(s);
+  s.entries[0].detail = "SMAPE 24.8%\nFLIP 0.123";
+  EXPECT_LT(lit_pixels(contact_sheet(s)), lit_pixels(full));
   EXPECT_EQ(two.height, one.height);
   EXPECT_GT(lit_pixels(two), lit_pixels(full));
 }

@@ -73,7 +73,7 @@ ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases,
   ContactSheet sheet;
   sheet.title = fmt::format("{}: one-bounce indirect light   {}", scene.name, captions.shared);
   sheet.reference = shown.mean;
-  sheet.reference_detail = fmt::format("{} samples; floor: SMAPE {:.2f}% RMSE {:.2g}", shown.samples,
+  sheet.reference_detail = fmt::format("{} samples\nfloor: SMAPE {:.2f}% RMSE {:.2g}", shown.samples,
                                        info.noise_floor_smape, info.noise_floor_rmse.value_or(0));
   sheet.mask = shown.mask;
   sheet.exposure = static_cast<float>(scene.exposure);
@@ -98,7 +98,7 @@ std::string errors_of(const CaseResult& c) {
     return fmt::format(fmt::runtime(format), scale * (m.heavy_tailed ? *m.median : *m.value));
   };
   const Accuracy& a = *c.accuracy;
-  return fmt::format("SMAPE {} lit {} RMSE {} bias {} FLIP {}", number(a.smape, 1, "{:.3g}%"),
+  return fmt::format("SMAPE {} lit {} RMSE {}\nbias {} FLIP {}", number(a.smape, 1, "{:.3g}%"),
                      number(a.smape_lit, 1, "{:.3g}%"), number(a.rmse, 1, "{:.3g}"),
                      number(a.bias, 100, "{:+.3g}%"), number(a.flip, 1, "{:.3f}"));
 }

@@ -15,7 +15,8 @@ namespace vsglbench {
 // meet.
 std::string file_name(const std::string& name);
 
-// "SMAPE 24.84 %  lit 21.02 %  RMSE 0.0155  bias -19.93 %  FLIP 0.12", or why there are no errors.
+// "SMAPE 24.84 %  lit 21.02 %  RMSE 0.0155", and in a second line "bias -19.93 %  FLIP 0.12", or why there
+// are no errors.
 std::string errors_of(const CaseResult& c);
 
 // What a contact sheet says of the cases of one scene: each one's method with those "KEY=VALUE" of its id

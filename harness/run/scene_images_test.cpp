@@ -32,7 +32,7 @@ TEST(ErrorsOfACase, NameEveryKindOfThem) {
   CaseResult c = case_of("mfis", "N=64");
   Errors e{24.84, 0.01551, 0.3, 0.5, -0.1993, 9, 21.02, 0.5, 0.1234, 0.5};
   c.accuracy = accuracy_over_seeds({{0, e}}, {});
-  EXPECT_EQ(errors_of(c), "SMAPE 24.8% lit 21% RMSE 0.0155 bias -19.9% FLIP 0.123");
+  EXPECT_EQ(errors_of(c), "SMAPE 24.8% lit 21% RMSE 0.0155\nbias -19.9% FLIP 0.123");
   e.bias.reset();
   c.accuracy = accuracy_over_seeds({{0, e}}, {});
   EXPECT_THAT(errors_of(c), testing::HasSubstr("bias undefined"));
