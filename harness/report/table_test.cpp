@@ -209,12 +209,13 @@ TEST(Table, MarkdownHasItsColumnsInEveryRow) {
   Report r = synthetic_report();
   r.cases[1].error->message = "a | b";
   const auto lines = split(markdown_table(r));
-  for (size_t i = 0; i < 6; ++i) {
-    size_t bars = 0;
-    for (size_t k = 0; k < lines[i].size(); ++k)
-      bars += lines[i][k] == '|' && (k == 0 || lines[i][k - 1] != '\\');
-    EXPECT_EQ(bars, 9u) << lines[i];
-  }
+  const auto bars = [](const std::string& line) {
+    size_t count = 0;
+    for (size_t k = 0; k < line.size(); ++k) count += line[k] == '|' && (k == 0 || line[k - 1] != '\\');
+    return count;
+  };
+  EXPECT_GE(bars(lines[0]), 9u);
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(bars(lines[i]), bars(lines[0])) << lines[i];
 }
 
 TEST(Table, NothingOfAReportReachesTheTerminalRaw) {
