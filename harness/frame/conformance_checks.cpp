@@ -111,35 +111,54 @@ void check_lights(Inspection& inspection) {
   }
 }
 
-// Mean over shifts of what the lights of a half carry.
-LightPower mean_power(MethodRun& run, const DeviceHalf& texels, Half half, uint32_t wanted) {
+// What the lights of a half carry: mean over shifts, and the standard error of the mean of `carried`.
+struct MeanPower {
   LightPower mean;
+  double standard_error = 0;
+};
+MeanPower mean_power(MethodRun& run, const DeviceHalf& texels, Half half, uint32_t wanted) {
+  MeanPower m;
+  double squares = 0;
   for (uint32_t seed = 1; seed <= kShifts; ++seed) {
     const LightPower sum = sum_power(run.frame(texels, half, wanted, lattice_shift(seed)).lights);
-    mean.stated += sum.stated / kShifts;
-    mean.carried += sum.carried / kShifts;
+    m.mean.stated += sum.stated / kShifts;
+    m.mean.carried += sum.carried / kShifts;
+    squares += sum.carried * sum.carried / kShifts;
   }
-  return mean;
+  m.standard_error = std::sqrt(std::max(squares - m.mean.carried * m.mean.carried, 0.0) / (kShifts - 1));
+  return m;
 }
 
-void check_flux_on(Inspection& inspection, const Json& parameters, Half which, glm::uvec2 size,
-                   uint32_t wanted) {
-  const auto name = fmt::format("smooth half {} {}×{}, N = {}, {} shifts{}", half_name(which), size.x, size.y,
-                                wanted, kShifts, suffix_of(parameters));
+struct FluxInput {
+  Half half;
+  glm::uvec2 size;
+  uint32_t wanted;
+  bool uneven = false;
+};
+
+// On an uneven PDF the mean over 16 shifts is itself uncertain: three standard errors are allowed for.
+void check_flux_on(Inspection& inspection, const Json& parameters, const FluxInput& in) {
+  const auto name =
+      fmt::format("smooth half {} {}×{}, N = {}, {} shifts{}{}", half_name(in.half), in.size.x, in.size.y, in.wanted,
+                  kShifts, in.uneven ? ", an uneven PDF" : "", suffix_of(parameters));
   inspection.on(name, [&] {
-    oracle::Half half = smooth_half(size.x, size.y);
-    if (which == Half::gbuffer) look_from_eye(half);
+    oracle::Half half = in.uneven ? uneven_half(in.size.x, in.size.y) : smooth_half(in.size.x, in.size.y);
+    if (in.half == Half::gbuffer) look_from_eye(half);
     const auto run = inspection.make(parameters);
     const double expected = texel_power(half, run->method().kind());
-    const LightPower mean = mean_power(*run, DeviceHalf(inspection.device(), half), which, wanted);
-    inspection.measured(fmt::format("Σ light power is {:.6g} × the texels'", mean.carried / expected));
-    const double bound = inspection.info().flux_bound;
+    const auto [mean, error] = mean_power(*run, DeviceHalf(inspection.device(), half), in.half, in.wanted);
+    const MethodInfo& info = inspection.info();
+    const double stated = in.uneven ? info.worst_flux_bound() : info.flux_bound;
+    const double bound = in.uneven ? stated + 3 * error / expected : stated;
+    inspection.measured(fmt::format("Σ light power is {:.6g} × the texels'{}", mean.carried / expected,
+                                    in.uneven ? fmt::format(" ± {:.1g}", error / expected) : ""));
     for (const double sum : {mean.stated, mean.carried}) {
       if (std::abs(sum / expected - 1) <= bound) continue;
       return inspection.found(
           fmt::format("Σ light power is {:.6g} W, {:.6g} × the texels' {:.6g} W; "
-                      "expected {:g} … {:g} × (flux_bound = {:g})",
-                      sum, sum / expected, expected, std::max(1 - bound, 0.0), 1 + bound, bound));
+                      "expected {:g} … {:g} × ({}flux_bound = {:g})",
+                      sum, sum / expected, expected, std::max(1 - bound, 0.0), 1 + bound,
+                      in.uneven && info.uneven_flux_bound > info.flux_bound ? "uneven_" : "", stated));
     }
   });
 }
@@ -149,13 +168,14 @@ void check_flux(Inspection& inspection) {
   variants.insert(variants.begin(), Json::object());
   for (const Json& parameters : variants) {
     for (const Half half : inspection.halves()) {
-      check_flux_on(inspection, parameters, half, {96, 64}, 256);
-      check_flux_on(inspection, parameters, half, {61, 35}, 100);
+      check_flux_on(inspection, parameters, {half, {96, 64}, 256});
+      check_flux_on(inspection, parameters, {half, {61, 35}, 100});
+      if (inspection.uses_importance()) check_flux_on(inspection, parameters, {half, {96, 64}, 256, true});
     }
   }
   // The ends of a range may cost much, such as a hundred Lloyd steps: the smaller half only.
   for (const Json& parameters : range_variants(inspection.info())) {
-    for (const Half half : inspection.halves()) check_flux_on(inspection, parameters, half, {61, 35}, 100);
+    for (const Half half : inspection.halves()) check_flux_on(inspection, parameters, {half, {61, 35}, 100});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "frame/light_flux.h"
 #include "method/oracle.h"
 
 namespace vsglbench {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-3;   // of an axis' length
 constexpr double kPowerTolerance = 1e-3;  // of the stated power against the lobes'
-constexpr double kPi = 3.14159265358979323846;
 
 // Collects the first fault of one light.
 class Judge {
@@ -52,15 +52,7 @@ class Judge {
   std::string fault_;
 };
 
-// ∫G over the sphere, per unit of amplitude.
-double sg_integral(double sharpness) {
-  return sharpness > 1e-6 ? 2 * kPi * -std::expm1(-2 * sharpness) / sharpness : 4 * kPi;
-}
-
-double carried_power(const gpu::Vsgl& v) {
-  return oracle::luminance(glm::dvec3(v.diffuse) * sg_integral(v.diffuse_sharpness) +
-                           glm::dvec3(v.specular) * sg_integral(v.specular_sharpness));
-}
+double carried_power(const gpu::Vsgl& v) { return reflected_power(v); }
 double carried_power(const gpu::Vpl& v) { return oracle::luminance(glm::dvec3(v.flux)); }
 
 void compare_power(Judge& judge, double stated, double carried) {
@@ -77,8 +69,9 @@ Light record(const LightRecords& lights, size_t i) {
 
 bool unwritten(const LightRecords& lights, size_t i) {
   const size_t stride = light_stride(lights.kind);
-  return std::all_of(&lights.bytes[i * stride], &lights.bytes[i * stride] + stride,
-                     [](std::byte b) { return b == std::byte{0xFF}; });
+  std::vector<uint32_t> words(stride / 4);
+  std::memcpy(words.data(), &lights.bytes[i * stride], stride);
+  return std::ranges::all_of(words, [](uint32_t word) { return word == unwritten_word; });
 }
 
 template <class Light>

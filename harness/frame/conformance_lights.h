@@ -10,9 +10,6 @@
 
 namespace vsglbench {
 
-// The word that every light record is filled with before a method writes it.
-inline constexpr uint32_t unwritten_word = 0xFFFFFFFFu;
-
 // As they came from the device: `count` records of light_stride(kind) bytes.
 struct LightRecords {
   LightKind kind = LightKind::vsgl;

@@ -80,7 +80,6 @@ Importance parse_importance(const std::string& name) {
 }
 
 glm::uvec2 lattice_shift(uint32_t seed) {
-  if (seed == 0) return glm::uvec2(0);
   const uint64_t word = mix(seed);
   return {static_cast<uint32_t>(word), static_cast<uint32_t>(word >> 32)};
 }
@@ -164,16 +163,18 @@ Field Frame::field(Half half, const Buffer* pdf) {
   return f;
 }
 
-FrameTimes Frame::render(uint32_t seed) {
+FrameTimes Frame::render(uint32_t seed, bool watched) {
   FrameTimes times;
   generate_dispatches_ = 0;
   restart_check();
-  for (uint32_t i = 0; i < parameters_.iterations; ++i) render_iteration(seed, i, &times);
+  memory_fault_.clear();
+  for (uint32_t i = 0; i < parameters_.iterations; ++i) render_iteration(seed, i, watched, &times);
   times.generate_dispatches = generate_dispatches_;
   return times;
 }
 
-void Frame::render_iteration(uint32_t seed, uint32_t iteration, FrameTimes* times) {
+void Frame::render_iteration(uint32_t seed, uint32_t iteration, bool watched, FrameTimes* times) {
+  if (watched) arm_memory();
   const glm::uvec2 shift = iteration_shift(seed, iteration);
   recorder_.begin();
   if (iteration == 0) draw_halves(recorder_);
@@ -182,11 +183,14 @@ void Frame::render_iteration(uint32_t seed, uint32_t iteration, FrameTimes* time
   if (parameters_.visibility == Visibility::exact) {
     // The host traces between two submissions; its time is not the frame's.
     add(*times, recorder_.submit_and_wait());
+    if (watched) look_at_memory();
+    if (!memory_fault_.empty()) return;  // nothing to trace from
     trace_visibility();
     recorder_.begin();
   }
   shade(recorder_, seed, iteration);
   add(*times, recorder_.submit_and_wait());
+  if (watched && parameters_.visibility != Visibility::exact) look_at_memory();
 }
 
 void Frame::trace_visibility() {
@@ -218,7 +222,9 @@ KeptPdfs Frame::prepare(uint32_t seed) {
   return {keep(Half::gbuffer, "kept pdf.gbuffer"), keep(Half::rsm, "kept pdf.rsm")};
 }
 
-FrameTimes Frame::generate_only(uint32_t seed, const KeptPdfs& pdfs) {
+FrameTimes Frame::generate_only(uint32_t seed, const KeptPdfs& pdfs, bool watched) {
+  memory_fault_.clear();
+  if (watched) arm_memory();
   const glm::uvec2 shift = lattice_shift(seed);
   FrameTimes times;
   generate_dispatches_ = 0;
@@ -227,6 +233,7 @@ FrameTimes Frame::generate_only(uint32_t seed, const KeptPdfs& pdfs) {
   if (lights_gbuffer()) generate_importance_lights(recorder_, &pdfs.gbuffer, shift);
   generate_lights(recorder_, uses_importance() ? &pdfs.rsm : nullptr, shift);
   add(times, recorder_.submit_and_wait());
+  if (watched) look_at_memory();
   times.generate_dispatches = generate_dispatches_;
   return times;
 }

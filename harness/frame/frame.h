@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "frame/memory_watch.h"
 #include "frame/pass_check.h"
 #include "frame/scene_gpu.h"
 #include "frame/shading.h"
@@ -103,15 +104,25 @@ class Frame {
         const FrameParameters& parameters, ExactVisibility exact);
   ~Frame();
 
-  // Renders with the lattice shift of `seed` (0: none). Waits for the device.
-  FrameTimes render(uint32_t seed);
+  // Renders with the lattice shift of `seed`. Waits for the device. `watched`: with memory_fault(), and not to be timed
+  // against a frame that is not.
+  FrameTimes render(uint32_t seed, bool watched = false);
 
   // For timing generation alone. prepare() draws the halves, which then stand for every frame of these sizes,
   // and makes the PDFs with this frame's method; throws Error(case_failed) for one that uses none.
   // generate_only() runs nothing but the generate passes, on those halves and PDFs.
   KeptPdfs prepare(uint32_t seed);
-  FrameTimes generate_only(uint32_t seed, const KeptPdfs& pdfs);
+  FrameTimes generate_only(uint32_t seed, const KeptPdfs& pdfs, bool watched = false);
   LightHealth light_health() const;  // of the last generate_only() or render()
+
+  // Of the last watched frame: which lights no kernel wrote, and what was written past the end of a buffer that the
+  // method may write; empty: nothing.
+  const std::string& memory_fault() const { return memory_fault_; }
+  // Of the last frame, on the RSM: Σ over its lights, and over its texels, of the luminance of the reflected power, W.
+  double light_power() const;
+  double texel_power() const;
+  // Whether the PDF on the RSM is above 0 anywhere; true where none is used.
+  bool has_importance() const;
 
   // Results of the last render(); the lights also those of the last generate_only().
   Image indirect() const;
@@ -144,7 +155,10 @@ class Frame {
  private:
   void draw_halves(Recorder& recorder);
   // One set of lights and its share of the image. Iteration 0 draws the halves, too.
-  void render_iteration(uint32_t seed, uint32_t iteration, FrameTimes* times);
+  void render_iteration(uint32_t seed, uint32_t iteration, bool watched, FrameTimes* times);
+  void arm_memory();
+  void look_at_memory();
+  std::string unwritten_lights(Half half) const;
   void trace_visibility();
   void make_importance(Recorder& recorder, glm::uvec2 shift);
   void reflectance_pdf(Recorder& recorder, Half half);
@@ -188,6 +202,8 @@ class Frame {
   Buffer camera_buffer_, light_view_buffer_;
   uint32_t light_count_ = 0, importance_count_ = 0;
   unsigned generate_dispatches_ = 0;
+  MemoryWatch memory_;
+  std::string memory_fault_;
   std::vector<LightPoint> traced_;  // the lights whose bits are in bits_
   std::vector<uint32_t> bits_;
 };
@@ -195,7 +211,7 @@ class Frame {
 // Downloads one RGBA32F target.
 std::vector<glm::vec4> download_map(const DeviceImage& image);
 
-// Seed 0 leaves the lattice where it is; others shift it by a hash of the seed.
+// A hash of the seed: a random shift, of seed 0 as of all others.
 glm::uvec2 lattice_shift(uint32_t seed);
 
 }  // namespace vsglbench

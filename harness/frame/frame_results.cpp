@@ -1,8 +1,10 @@
 // What a frame left on the device, read back.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "frame/frame.h"
+#include "frame/light_flux.h"
 #include "method/filtered_sampling.h"
 
 namespace vsglbench {
@@ -12,9 +14,16 @@ bool all_finite(const float* begin, size_t count) {
   return std::all_of(begin, begin + count, [](float v) { return std::isfinite(v); });
 }
 
-// Every field of a light is a float.
+// Without the fields that nobody reads, which a kernel need not write. The others are all floats.
+gpu::Vsgl used(const gpu::Vsgl& light) { return light; }
+gpu::Vpl used(gpu::Vpl light) {
+  light.unused0 = light.unused1 = 0;
+  return light;
+}
+
 template <class Light>
-bool is_finite(const Light& light) {
+bool is_finite(const Light& whole) {
+  const Light light = used(whole);
   return all_finite(reinterpret_cast<const float*>(&light), sizeof light / sizeof(float));
 }
 
@@ -27,9 +36,10 @@ template <class Light>
 void check(const std::vector<Light>& lights, const char* pass, LightHealth* health) {
   for (size_t i = 0; i < lights.size(); ++i) {
     if (is_finite(lights[i])) continue;
-    const float* fields = reinterpret_cast<const float*>(&lights[i]);
+    const Light light = used(lights[i]);
+    const float* fields = reinterpret_cast<const float*>(&light);
     const bool nan =
-        std::any_of(fields, fields + sizeof lights[i] / sizeof(float), [](float v) { return std::isnan(v); });
+        std::any_of(fields, fields + sizeof light / sizeof(float), [](float v) { return std::isnan(v); });
     (nan ? health->nan : health->inf) += 1;
     if (health->first_bad_pass.empty()) {
       health->first_bad_pass = pass;
@@ -176,6 +186,69 @@ FrameOutputs Frame::outputs() {
     return pass == "gbuffer" ? gbuffer_ : pass == "rsm" ? rsm_ : nullptr;
   };
   return out;
+}
+
+double Frame::light_power() const {
+  double sum = 0;
+  for (const auto& light : vsgls()) sum += reflected_power(light);
+  for (const auto& light : vpls()) sum += reflected_power(light);
+  return sum;
+}
+
+double Frame::texel_power() const {
+  std::array<std::vector<glm::vec4>, 5> maps;
+  std::transform(rsm_->maps.begin(), rsm_->maps.end(), maps.begin(), download_map);
+  return reflected_power(light_, maps);
+}
+
+bool Frame::has_importance() const {
+  const auto p = importance();
+  return !uses_importance() || std::any_of(p.begin(), p.end(), [](float v) { return v > 0; });
+}
+
+// What a kernel of the method can reach: both halves' lights, the method's own scratch memory and the PDFs.
+void Frame::arm_memory() {
+  const auto arm = [&](const std::string& name, size_t bytes, bool contents) {
+    memory_.arm(name, stage_.scratch.get(name, bytes), bytes, contents);
+  };
+  const auto arm_half = [&](Half half, const Method& method, uint32_t count) {
+    const std::string name = half_name(half);
+    arm("lights." + name, count * light_stride(method.kind()), true);
+    const DeferredTargets& t = half == Half::gbuffer ? *gbuffer_ : *rsm_;
+    if (uses_importance()) arm("pdf." + name, pyramid_texels(t.width, t.height) * sizeof(float), false);
+  };
+  if (lights_gbuffer()) arm_half(Half::gbuffer, importance_method(), importance_count_);
+  arm_half(Half::rsm, *method_, light_count_);
+  auto scratch = context_.largest_scratch();
+  if (other_context_) {
+    for (const auto& [name, bytes] : other_context_->largest_scratch())
+      scratch[name] = std::max(scratch[name], bytes);
+  }
+  for (const auto& [name, bytes] : scratch) arm(name, bytes, true);
+}
+
+// The first fault stays.
+void Frame::look_at_memory() {
+  const std::string overrun = memory_.overrun();
+  std::string fault = lights_gbuffer() ? unwritten_lights(Half::gbuffer) : "";
+  if (fault.empty()) fault = unwritten_lights(Half::rsm);
+  if (!overrun.empty()) fault += fmt::format("{}{} was written", fault.empty() ? "" : ", and ", overrun);
+  if (memory_fault_.empty()) memory_fault_ = fault;
+}
+
+std::string Frame::unwritten_lights(Half half) const {
+  const bool gbuffer = half == Half::gbuffer;
+  const uint32_t count = gbuffer ? importance_count_ : light_count_;
+  const size_t stride = light_stride((gbuffer ? importance_method() : *method_).kind()) / 4;
+  const bool is_vpl = stride == sizeof(gpu::Vpl) / 4;
+  const std::vector<size_t> unused = {offsetof(gpu::Vpl, unused0) / 4, offsetof(gpu::Vpl, unused1) / 4};
+  const Unwritten found = find_unwritten(light_buffer(half).download<uint32_t>(count * stride), stride,
+                                         is_vpl ? unused : std::vector<size_t>());
+  if (found.records == 0) return "";
+  if (found.records < count)
+    return fmt::format("{} of {} lights of generate.{} were not written, the first is light {}", found.records,
+                       count, half_name(half), found.first);
+  return fmt::format("none of the {} lights of generate.{} was written", count, half_name(half));
 }
 
 LightHealth Frame::light_health() const {

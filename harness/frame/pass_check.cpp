@@ -34,6 +34,8 @@ void every_float(const FloatArray& array, size_t bytes, std::vector<uint32_t>& w
 
 bool is_nan(uint32_t bits) { return std::isnan(std::bit_cast<float>(bits)); }
 bool is_finite(uint32_t bits) { return std::isfinite(std::bit_cast<float>(bits)); }
+// What nobody wrote is no pass's output; MemoryWatch tells whether it should have been.
+bool is_sound(uint32_t bits) { return is_finite(bits) || bits == unwritten_word; }
 
 std::vector<uint32_t> words_of(const Buffer& buffer) {
   return buffer.download<uint32_t>(buffer.size() / sizeof(uint32_t));
@@ -53,7 +55,7 @@ class Finding {
   explicit Finding(bool inf_is_bad) : inf_is_bad_(inf_is_bad) {}
 
   void take(uint64_t element, const std::string& field, uint32_t bits) {
-    if (is_finite(bits) || (!inf_is_bad_ && !is_nan(bits))) return;
+    if (is_sound(bits) || (!inf_is_bad_ && !is_nan(bits))) return;
     if (bad.nan + bad.inf == 0) {
       bad.element = element;
       bad.field = field;
@@ -100,7 +102,7 @@ void PassCheck::before(const PassRecord& pass) {
       auto words = words_of(*use.buffer);
       bool stale = false;
       every_float(array, use.buffer->size(), words, [&](uint64_t, const FloatField&, uint32_t& bits) {
-        if (is_finite(bits)) return;
+        if (is_sound(bits)) return;
         bits = 0;
         stale = true;
       });

@@ -1,5 +1,6 @@
 #include "gpu/buffer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -61,13 +62,14 @@ struct Staging {
 
 }  // namespace
 
-Buffer::Buffer(Device& device, const std::string& name, size_t bytes)
+Buffer::Buffer(Device& device, const std::string& name, size_t bytes, size_t guard)
     : device_(&device), size_(bytes < 16 ? 16 : bytes) {
   if (size_ > device.info().max_storage_range) {
     throw fail(ErrorKind::case_failed, "{}: {} MiB are over the device's storage-buffer range of {} MiB",
                name, size_ >> 20, device.info().max_storage_range >> 20);
   }
-  buffer_ = make_buffer(device, size_,
+  guard_ = std::min<size_t>(guard, device.info().max_storage_range - size_);
+  buffer_ = make_buffer(device, size_ + guard_,
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                             VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
@@ -99,6 +101,7 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(memory_, other.memory_);
   std::swap(mapped_, other.mapped_);
   std::swap(size_, other.size_);
+  std::swap(guard_, other.guard_);
   std::swap(allocated_, other.allocated_);
 }
 
@@ -117,8 +120,14 @@ void Buffer::upload(const void* data, size_t bytes, size_t offset) {
   });
 }
 
+void Buffer::fill(uint32_t word, size_t bytes, size_t offset) {
+  if (offset + bytes > size_ + guard_) throw std::logic_error("Buffer::fill past the end");
+  if (bytes == 0) return;
+  device_->run_once([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, buffer_, offset, bytes, word); });
+}
+
 void Buffer::download(void* data, size_t bytes, size_t offset) const {
-  if (offset + bytes > size_) throw std::logic_error("Buffer::download past the end");
+  if (offset + bytes > size_ + guard_) throw std::logic_error("Buffer::download past the end");
   if (bytes == 0) return;
   if (mapped_) {
     std::memcpy(data, static_cast<const char*>(mapped_) + offset, bytes);

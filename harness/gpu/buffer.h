@@ -12,12 +12,17 @@
 
 namespace vsglbench {
 
+// What watched memory holds until a kernel writes it: a NaN that no arithmetic makes.
+inline constexpr uint32_t unwritten_word = 0xFFC0DEADu;
+
 // A storage buffer in device memory (also transfer source and target, vertex, index and uniform buffer).
 class Buffer {
  public:
   Buffer() = default;
-  // Throws Error(case_failed) when `bytes` is over the device's storage-buffer range or its memory.
-  Buffer(Device& device, const std::string& name, size_t bytes);
+  // `guard`: so many bytes more lie behind the end, less where the device's storage-buffer range ends. Kernels have
+  // them bound with the rest, so that what is written past the end arrives there and can be seen. Throws
+  // Error(case_failed) when `bytes` is over that range or the device's memory.
+  Buffer(Device& device, const std::string& name, size_t bytes, size_t guard = 0);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
   Buffer& operator=(Buffer&& other) noexcept {
@@ -27,9 +32,13 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_; }
   size_t size() const { return size_; }
+  size_t guard() const { return guard_; }
   explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
 
-  // Blocking copies through a staging buffer (or straight, where the memory is host-visible).
+  // Blocking; `bytes` and `offset` are multiples of 4 and may reach into the guard.
+  void fill(uint32_t word, size_t bytes, size_t offset);
+  // Blocking copies through a staging buffer (or straight, where the memory is host-visible). A download may reach into
+  // the guard.
   void upload(const void* data, size_t bytes, size_t offset = 0);
   void download(void* data, size_t bytes, size_t offset = 0) const;
   template <class T>
@@ -49,7 +58,7 @@ class Buffer {
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   void* mapped_ = nullptr;  // lavapipe and integrated GPUs
-  size_t size_ = 0, allocated_ = 0;
+  size_t size_ = 0, guard_ = 0, allocated_ = 0;
 };
 
 // One 2-D image with its view: a render target that kernels read, or a texture.

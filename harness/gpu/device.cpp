@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "gpu/check.h"
 #include "gpu/device_info.h"
+#include "gpu/loop_check.h"
 
 namespace vsglbench {
 
@@ -75,11 +76,13 @@ Device::Device(const DeviceOptions& options) {
   create_instance(options.validation);
   pick(options.select);
   create_device();
+  LoopCheck::create(*this);
 }
 
 Device::~Device() {
   if (device_) {
     vkDeviceWaitIdle(device_);
+    LoopCheck::destroy(*this);
     vkDestroySampler(device_, sampler_, nullptr);
     vkDestroyCommandPool(device_, pool_, nullptr);
     vkDestroyDevice(device_, nullptr);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "gpu/check.h"
+#include "gpu/loop_check.h"
 
 namespace vsglbench {
 
@@ -57,9 +58,12 @@ BindingLayout::BindingLayout(Device& device, std::vector<VkDescriptorType> types
                                             .pBindings = bindings.data()};
   VK_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_));
   const VkPushConstantRange range{stages, 0, 128};
+  std::vector<VkDescriptorSetLayout> sets = {set_};
+  if (const LoopCheck* check = LoopCheck::of(device); check && stages == VK_SHADER_STAGE_COMPUTE_BIT)
+    sets.push_back(check->layout());
   const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                          .setLayoutCount = 1,
-                                          .pSetLayouts = &set_,
+                                          .setLayoutCount = static_cast<uint32_t>(sets.size()),
+                                          .pSetLayouts = sets.data(),
                                           .pushConstantRangeCount = 1,
                                           .pPushConstantRanges = &range};
   VK_CHECK(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &layout_));
@@ -127,16 +131,24 @@ VkShaderModule make_shader_module(Device& device, const std::vector<uint32_t>& s
 Kernel::Kernel(Device& device, const std::filesystem::path& path, const ShaderDefines& defines,
                const std::vector<std::filesystem::path>& include_dirs)
     : device_(&device), name_(path.filename().string()) {
-  const auto spirv = compile_shader(path, defines, include_dirs);
+  LoopCheck* check = LoopCheck::of(device);
+  ShaderDefines all = defines;
+  if (check) all.emplace(loop_check_define, "1");
+  const auto spirv = compile_shader(path, all, include_dirs);
   layout_ = BindingLayout(device, reflect_bindings(spirv, name_), VK_SHADER_STAGE_COMPUTE_BIT);
   float_outputs_ = reflect_float_outputs(spirv);
+  push_bytes_ = reflect_push_bytes(spirv);
   const VkShaderModule module = make_shader_module(device, spirv);
+  const uint32_t number = check ? check->number_of(name_) : 0;
+  const VkSpecializationMapEntry entry{LoopCheck::kConstant, 0, sizeof number};
+  const VkSpecializationInfo constants{1, &entry, sizeof number, &number};
   const VkComputePipelineCreateInfo create{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
       .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                 .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                 .module = module,
-                .pName = "main"},
+                .pName = "main",
+                .pSpecializationInfo = check ? &constants : nullptr},
       .layout = layout_.pipeline_layout()};
   VK_CHECK(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline_));
   vkDestroyShaderModule(device.handle(), module, nullptr);
@@ -153,14 +165,25 @@ void Kernel::swap(Kernel& other) noexcept {
   std::swap(layout_, other.layout_);
   std::swap(pipeline_, other.pipeline_);
   std::swap(float_outputs_, other.float_outputs_);
+  std::swap(push_bytes_, other.push_bytes_);
 }
 
 void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
                       const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y,
                       uint32_t groups_z) const {
+  if (push_bytes != push_bytes_) {
+    throw fail(ErrorKind::plugin,
+               "{}: its push-constant block has {} bytes, and the host pushes {}; make both the same (scalar layout)",
+               name_, push_bytes_, push_bytes);
+  }
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
   layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);
+  if (const LoopCheck* check = LoopCheck::of(*device_)) {
+    const VkDescriptorSet set = check->set();
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline_layout(), LoopCheck::kSet, 1, &set,
+                            0, nullptr);
+  }
   layout_.push_constants(commands, push, push_bytes);
   vkCmdDispatch(commands, groups_x, groups_y, groups_z);
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "gpu/check.h"
+#include "gpu/loop_check.h"
 
 namespace vsglbench {
 
@@ -111,7 +112,7 @@ void Recorder::barrier() {
 }
 
 void Recorder::fill(const Buffer& buffer, uint32_t word) {
-  vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
+  vkCmdFillBuffer(commands_, buffer.handle(), 0, buffer.size() / 4 * 4, word);
   if (state_->in_pass) state_->pass.uses.push_back({&buffer, nullptr, 0});
 }
 
@@ -129,6 +130,7 @@ void Recorder::submit() {
   VK_CHECK(vkQueueSubmit(device_.queue(), 1, &submit, state_->fence));
   VK_CHECK(vkWaitForFences(device_.handle(), 1, &state_->fence, VK_TRUE, UINT64_MAX));
   VK_CHECK(vkResetFences(device_.handle(), 1, &state_->fence));
+  if (LoopCheck* check = LoopCheck::of(device_)) check->report();
 
   if (names_.empty()) return;
   std::vector<uint64_t> stamps(2 * names_.size());

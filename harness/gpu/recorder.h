@@ -73,7 +73,7 @@ class Recorder {
     dispatch(kernel, std::span(bindings.begin(), bindings.size()), push, groups_x, groups_y, groups_z);
   }
   void barrier();
-  void fill(const Buffer& buffer, uint32_t word);  // every 32-bit word
+  void fill(const Buffer& buffer, uint32_t word);  // every 32-bit word but the guard's
   // Submits, waits, and reads the timestamps.
   SubmissionTimes submit_and_wait();
   unsigned dispatches() const { return dispatches_; }  // since begin()

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "gpu/loop_check.h"
 
 namespace vsglbench {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 // The few SPIR-V opcodes and enumerants that reflection needs (SPIR-V specification 1.6, section 3).
 enum Op : uint32_t {
   kMemberName = 6,
+  kTypeInt = 21,
   kTypeFloat = 22,
   kTypeVector = 23,
   kTypeMatrix = 24,
@@ -40,7 +43,7 @@ enum Decoration : uint32_t {
   kDescriptorSet = 34,
   kOffset = 35
 };
-enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
+enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12 };
 
 using Words = std::span<const uint32_t>;       // of one instruction, its opcode first
 using Member = std::pair<uint32_t, uint32_t>;  // struct type, index
@@ -90,7 +93,7 @@ void take_member_decoration(Words w, Reflected& r) {
 
 void take(Words w, Reflected& r) {
   const uint32_t opcode = w[0] & 0xffff;
-  if (opcode >= kTypeFloat && opcode <= kTypePointer && w.size() >= 2) r.types[w[1]] = w;
+  if (opcode >= kTypeInt && opcode <= kTypePointer && w.size() >= 2) r.types[w[1]] = w;
   if (opcode == kDecorate && w.size() >= 3) take_decoration(w, r);
   if (opcode == kMemberDecorate && w.size() >= 4) take_member_decoration(w, r);
   if (opcode == kMemberName && w.size() >= 4) {
@@ -174,6 +177,34 @@ class FloatFinder {
   const Reflected& r_;
 };
 
+// Bytes from the start of a value to the end of its last part. `owner` as in FloatFinder::find().
+uint32_t bytes_of(const Reflected& r, uint32_t type, Member owner) {
+  const Words w = r.types.at(type);
+  switch (r.opcode(type)) {
+    case kTypeInt:
+    case kTypeFloat:
+      return w[2] / 8;
+    case kTypeVector:
+      return w[3] * bytes_of(r, w[2], owner);
+    case kTypeMatrix: {
+      const uint32_t columns = w[3], rows = r.types.at(w[2])[3], scalar = bytes_of(r, r.types.at(w[2])[2], owner);
+      const bool row_major = r.row_major.count(owner) > 0;
+      return ((row_major ? rows : columns) - 1) * r.matrix_stride.at(owner) + (row_major ? columns : rows) * scalar;
+    }
+    case kTypeArray:
+      return r.length(type) == 0 ? 0
+                                 : (r.length(type) - 1) * r.array_stride.at(type) + bytes_of(r, w[2], owner);
+    case kTypeStruct: {
+      uint32_t end = 0;
+      for (uint32_t i = 0; i + 2 < w.size(); ++i)
+        end = std::max(end, r.offset.at({type, i}) + bytes_of(r, w[i + 2], {type, i}));
+      return end;
+    }
+    default:
+      return 0;
+  }
+}
+
 // One member of a block.
 FloatArray float_array(const Reflected& r, Member member, uint32_t type) {
   FloatFinder finder(r);
@@ -199,6 +230,7 @@ std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spir
   const Reflected r = scan(spirv);
   std::map<uint32_t, VkDescriptorType> found;
   for (const auto& [id, binding] : r.binding) {
+    if (r.set.count(id) && r.set.at(id) == LoopCheck::kSet && binding == LoopCheck::kBinding) continue;
     if (r.set.count(id) && r.set.at(id) != 0) {
       throw fail(ErrorKind::plugin, "{}: binding {} is in set {}; use set 0", name, binding, r.set.at(id));
     }
@@ -221,6 +253,14 @@ std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spir
     types.push_back(type);
   }
   return types;
+}
+
+uint32_t reflect_push_bytes(const std::vector<uint32_t>& spirv) {
+  const Reflected r = scan(spirv);
+  for (const auto& [id, variable] : r.variables) {
+    if (variable.storage == kPushConstant) return bytes_of(r, r.types.at(variable.pointer_type)[3], {});
+  }
+  return 0;
 }
 
 FloatOutputs reflect_float_outputs(const std::vector<uint32_t>& spirv) {

@@ -13,6 +13,9 @@ namespace vsglbench {
 // another set, a gap, or a resource that is neither a storage buffer, uniform buffer nor sampled image.
 std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spirv, const std::string& name);
 
+// Bytes of the push-constant block, from 0 to the end of its last member; 0 without one.
+uint32_t reflect_push_bytes(const std::vector<uint32_t>& spirv);
+
 // A 32-bit float within an element: "power", "mean.x", "x"; "" where the element is one.
 struct FloatField {
   std::string name;

@@ -14,6 +14,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "gpu/contraction.h"
+#include "gpu/loop_check.h"
 
 namespace fs = std::filesystem;
 
@@ -107,6 +108,10 @@ struct Source {
     }
     preamble = "#extension GL_GOOGLE_include_directive : require\n";
     for (const auto& [key, value] : defines) preamble += fmt::format("#define {} {}\n", key, value);
+    if (stage == EShLangCompute && defines.contains(loop_check_define)) {
+      preamble += "#define main vsglbench_main\n";
+      text += LoopCheck::kSource;
+    }
     text_pointer = text.c_str();
     name_pointer = name.c_str();
     length = static_cast<int>(text.size());

@@ -100,6 +100,20 @@ oracle::Half smooth_half(uint32_t width, uint32_t height) {
   return half;
 }
 
+oracle::Half uneven_half(uint32_t width, uint32_t height) {
+  oracle::Half half = smooth_half(width, height);
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const double u = (x + 0.5) / width, v = (y + 0.5) / height;
+      const bool seen = std::hypot(u - 0.4, v - 0.6) < 0.35;
+      const double ripple = std::exp2(2 * std::sin(40 * u) * std::cos(33 * v));
+      half.pdf[size_t(y) * width + x] =
+          static_cast<float>(reflected_power(half, x, y) * (seen ? 4.0 : 0.25) * ripple);
+    }
+  }
+  return half;
+}
+
 void look_from_eye(oracle::Half& half) {
   half.emitter.power = glm::vec3(0);
   half.emitter.importance = 1;

@@ -125,6 +125,10 @@ struct MethodInfo {
   // How far the lights' summed power may be from the texels', |Σ light/Σ texel - 1|, in the mean over shifts
   // of the lattice; the conformance kit holds the method to it.
   double flux_bound = 0.05;
+  // The same where the PDF changes much within a few texels, as a view's does; below 0: flux_bound holds there too. What
+  // is drawn may not carry more than this on such a PDF: a run refuses it (run/flux_check.h).
+  double uneven_flux_bound = -1;
+  double worst_flux_bound() const { return uneven_flux_bound < flux_bound ? flux_bound : uneven_flux_bound; }
   std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters) = nullptr;
 
   // Set by the host when the plugin is found.

@@ -1,5 +1,6 @@
 #include "report/report.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
@@ -52,6 +53,12 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
   HealthReport out{health.nan, health.inf, health.negative, std::nullopt};
   if (health.first_bad) out.first_bad = FirstBad{first_bad_pass, *health.first_bad, std::nullopt};
   return out;
+}
+
+FluxResult flux_over_seeds(const std::vector<double>& ratios) {
+  const MeanEstimate estimate = mean_ci95(ratios);
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return {estimate.mean, estimate.known ? std::optional(estimate.ci95) : std::nullopt, *least, *most};
 }
 
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,

@@ -81,14 +81,23 @@ struct FrameTiming {
   std::optional<Summary> host_visibility;
 };
 
+// Σ power of the lights / Σ power of the RSM's texels, both as luminance of what is reflected: 1 where a light set keeps
+// the flux. Mean over seeds with Student's interval (absent for a single seed), and the least and the largest.
+struct FluxResult {
+  double value = 0;
+  std::optional<Interval> ci95;
+  double least = 0, most = 0;
+};
+FluxResult flux_over_seeds(const std::vector<double>& ratios);  // at least one
+
 struct GenerateResult {
   double gbuffer_ms = 0, rsm_ms = 0;  // medians of the two halves
   Summary total;                      // ms of both halves in each frame
   uint64_t lights = 0, empty = 0;     // lights asked for and evaluated; those of them without flux
   std::optional<double> overlap,
-      gap;  // mean over the RSM of lights beyond the first; share of it in none; absent: not defined for the
-            // method
+      gap;  // of c, how often lights hold a texel: means over the RSM of max(c-1,0), max(1-c,0); absent: not defined
   uint64_t shaders = 0, dispatches = 0, memory_bytes = 0;
+  std::optional<FluxResult> flux;  // absent where the texels reflect nothing
 };
 
 // What shading reported beside the image, of seed 0; a field is absent where the case does not have it.
@@ -143,6 +152,7 @@ struct Accuracy {
 struct SeedResult {
   uint64_t seed = 0;
   Errors errors;
+  std::optional<double> flux;  // as FluxResult, of this seed's lights
 };
 
 struct FlickerSeries {
@@ -182,7 +192,8 @@ enum class Status { ok, failed, skipped };
 std::string_view name(Status status);
 
 struct CaseError {
-  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal";
+  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal"; "refused" for
+  // lights that can't be: not written, of power from nothing or beyond what the method states, written past their end;
   // "crashed", "timeout" or "device_lost" for what ended the case's process; "device" when none can be opened
   std::string kind, message;
 };

@@ -85,6 +85,13 @@ void fields(auto& a, Is<FrameTiming> auto& v) {
   a("host_visibility", v.host_visibility);
 }
 
+void fields(auto& a, Is<FluxResult> auto& v) {
+  a("value", v.value);
+  a("ci95", v.ci95);
+  a("min", v.least);
+  a("max", v.most);
+}
+
 void fields(auto& a, Is<GenerateResult> auto& v) {
   a("gbuffer_ms", v.gbuffer_ms);
   a("rsm_ms", v.rsm_ms);
@@ -96,6 +103,7 @@ void fields(auto& a, Is<GenerateResult> auto& v) {
   a("shaders", v.shaders);
   a("dispatches", v.dispatches);
   a("memory_bytes", v.memory_bytes);
+  a("flux", v.flux);
 }
 
 void fields(auto& a, Is<ShadingResult> auto& v) {
@@ -166,6 +174,7 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("smape_lit", v.errors.smape_lit);
   a("flip", v.errors.flip);
   a("flip_p99", v.errors.flip_p99);
+  a("flux", v.flux);
 }
 
 void fields(auto& a, Is<FlickerSeries> auto& v) {

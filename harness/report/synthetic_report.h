@@ -32,12 +32,14 @@ inline CaseResult synthetic_case(const std::string& id) {
   g.shaders = 5;
   g.dispatches = 7;
   g.memory_bytes = 1 << 20;
+  g.flux = FluxResult{0.9, Interval{0.85, 0.95}, 0.8, 1.0};
   c.generate = g;
   for (uint64_t seed = 0; seed < 8; ++seed) {
     const double d = static_cast<double>(seed) - 3.5;
     c.seeds.push_back(
         {seed,
-         {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75, 0.2 + 0.01 * d, 0.5}});
+         {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75, 0.2 + 0.01 * d, 0.5},
+         0.9});
   }
   c.accuracy =
       accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001, 0.4, 0.01, 0.002, 0.03, 0.25, 0.125});

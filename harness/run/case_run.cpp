@@ -6,6 +6,7 @@
 #include "measure/stopwatch.h"
 #include "method/registry.h"
 #include "run/coverage.h"
+#include "run/flux_check.h"
 
 namespace vsglbench {
 namespace {
@@ -105,11 +106,11 @@ uint64_t CaseRun::frames_left() const {
 
 // The first frame compiles kernels: what it takes beyond the device's and the ray tracer's time is
 // compilation.
-FrameTimes CaseRun::render(uint32_t seed) {
+FrameTimes CaseRun::render(uint32_t seed, bool watched) {
   const double visibility_before = wall_->visibility_s;
   const Stopwatch watch;
-  FrameTimes times = config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs)
-                                                            : frame_->render(seed);
+  FrameTimes times = config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs, watched)
+                                                            : frame_->render(seed, watched);
   const double device_s = times.span_ms * 1e-3, visibility_s = wall_->visibility_s - visibility_before;
   wall_->device_s += device_s;
   if (visibility_s > 0) rays_ms_.push_back(1e3 * visibility_s);
@@ -118,12 +119,13 @@ FrameTimes CaseRun::render(uint32_t seed) {
   }
   rendered_ = true;
   check_passes();
+  if (watched) check_memory();
   return times;
 }
 
 void CaseRun::warm_up() {
   attempt("warm-up", [&] {
-    render(0);
+    render(0, true);
     ++warmups_;
   });
 }
@@ -133,11 +135,13 @@ void CaseRun::step() {
     const Stopwatch watch;
     const bool scored = seeds_.size() < seeds();
     const uint32_t seed = scored ? static_cast<uint32_t>(seeds_.size()) : 0;
-    record(render(seed));
+    const bool only_lights = config_.measure == Measure::generation && span_ms_.empty();
+    record(render(seed, scored || only_lights));
     if (scored) score(seed);
-    if (config_.measure == Measure::generation && span_ms_.size() == 1) {
+    if (only_lights) {
       result_.health.emplace();
       check_lights();
+      check_flux();
       describe_lights();
     }
     elapsed_s_ += watch.seconds();
@@ -152,6 +156,7 @@ void CaseRun::score(uint32_t seed) {
   if (mask_.empty()) make_mask();
   check_health_of(image);
   check_lights();
+  const double flux = check_flux();
   if (seed == 0) describe_lights();
   if (seed == 0) describe_shading();
   Errors errors = measure_errors(image, input_.reference->mean, mask_);
@@ -160,7 +165,7 @@ void CaseRun::score(uint32_t seed) {
     quantiles_ = error_quantiles(image, input_.reference->mean, mask_);
     first_image_ = image;
   }
-  seeds_.push_back({seed, errors});
+  seeds_.push_back({seed, errors, *texel_power_ > 0 ? std::optional(flux) : std::nullopt});
 }
 
 // FLIP looks at the image once an exposure: where that takes long it is measured for the first seed alone.
@@ -209,6 +214,33 @@ void CaseRun::check_lights() {
   fail_with("not_finite", fmt::format("{} lights with a NaN and {} with an Inf, the first is light {} of {}",
                                       health.nan, health.inf, health.first_bad, health.first_bad_pass));
   throw fail(ErrorKind::case_failed, "not finite");
+}
+
+// Lights that no kernel wrote are what another case left there, and what is written past a buffer's end another's
+// memory: neither may be scored, however plausible the picture.
+void CaseRun::check_memory() {
+  if (!frame_->memory_fault().empty()) refuse(frame_->memory_fault());
+}
+
+// Σ light power / Σ texel power of the last frame, or 0 where the texels have none. The RSM is the same for all seeds.
+double CaseRun::check_flux() {
+  if (!texel_power_) texel_power_ = frame_->texel_power();
+  const double power = frame_->light_power();
+  if (!(*texel_power_ > 0)) {
+    if (power > 0)
+      refuse(fmt::format("power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none", power));
+    return 0;
+  }
+  // A PDF that is zero everywhere asks for no light.
+  const double flux = power / *texel_power_;
+  if (flux > 0 || frame_->has_importance()) flux_.push_back(flux);
+  if (const std::string fault = flux_fault(find_method(case_.method), flux_); !fault.empty()) refuse(fault);
+  return flux;
+}
+
+void CaseRun::refuse(const std::string& why) {
+  fail_with("refused", why);
+  throw fail(ErrorKind::case_failed, "refused");  // ends the step; the failure above stays
 }
 
 // With check_passes, and in every frame: what any pass wrote, though nothing of it may be left at the end.
@@ -288,6 +320,7 @@ CaseResult CaseRun::result() const {
     r.accuracy->quantiles = quantiles_;
     r.seeds = seeds_;
   }
+  if (r.generate && !flux_.empty()) r.generate->flux = flux_over_seeds(flux_);
   if (reason_) r.stopping = Stopping{*reason_, span_ms_.size(), warmups_};
   return r;
 }

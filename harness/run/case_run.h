@@ -72,12 +72,15 @@ class CaseRun {
   void attempt(const std::string& name, const Action& action);
   void announce(bool limited) const;
   uint32_t seeds() const;  // to be scored
-  FrameTimes render(uint32_t seed);
+  FrameTimes render(uint32_t seed, bool watched = false);
   void score(uint32_t seed);
   void make_mask();
   void measure_look(const Image& image, uint32_t seed, Errors* errors);
   void check_health_of(const Image& image);
+  [[noreturn]] void refuse(const std::string& why);
+  void check_memory();
   void check_lights();
+  double check_flux();
   void check_passes();
   void record(const FrameTimes& times);
   void describe_lights();
@@ -96,6 +99,8 @@ class CaseRun {
   std::vector<double> span_ms_;
   std::vector<double> rays_ms_;  // of exact visibility on the host, in each frame that traced any
   std::vector<SeedResult> seeds_;
+  std::vector<double> flux_;  // of each light set looked at
+  std::optional<double> texel_power_;
   std::optional<ErrorQuantiles> quantiles_;
   std::optional<FlipExposures> flip_exposures_;  // chosen with the first seed
   std::unique_ptr<FlipReference> flip_;          // for further seeds

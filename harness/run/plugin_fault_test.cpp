@@ -66,6 +66,27 @@ class PluginFault : public RunFixture {
                                [](char b) { return static_cast<unsigned char>(b) < 0x20; }));
     }
   }
+  // One case an entry of `methods`, between two sound ones: each fails with its message.
+  void expect_refusals(const std::vector<Json>& methods, const std::string& kind,
+                       const std::vector<std::string>& messages) {
+    config_["methods"] = Json::array({{{"method", "vpl"}}});
+    for (const Json& method : methods) config_["methods"].push_back(method);
+    config_["methods"].push_back({{"method", "mfis"}});
+    RunOptions options{.config = write_config(), .out = out_, .argv = {"vsglbench", "run"}};
+    EXPECT_EQ(run_config(options).exit_code, 1);
+    expect_sound(out_ / "report.json");
+    const Report r = read_report(out_ / "report.json");
+    ASSERT_EQ(r.cases.size(), methods.size() + 2);
+    for (const size_t i : {size_t{0}, r.cases.size() - 1}) {
+      EXPECT_EQ(r.cases[i].status, Status::ok) << r.cases[i].error->message;
+    }
+    for (size_t i = 0; i < methods.size(); ++i) {
+      ASSERT_EQ(r.cases[i + 1].status, Status::failed) << methods[i];
+      EXPECT_EQ(r.cases[i + 1].error->kind, kind);
+      EXPECT_TRUE(contains(r.cases[i + 1].error->message, messages[i]));
+      EXPECT_EQ(r.cases[i + 1].error->message.find('\n'), std::string::npos);
+    }
+  }
   std::string refused(const std::string& mistake) {
     ::setenv("VSGLBENCH_TEST_MISTAKE", mistake.c_str(), 1);
     const std::string why = inspect_plugin(kBad / "faulty.so").refused;
@@ -85,6 +106,51 @@ TEST_F(PluginFault, AClosedPipeAndAnOrphanAreNotWaitedFor) {
   std::ifstream stat(fmt::format("/proc/{}/stat", orphan));
   std::getline(stat, state);
   EXPECT_TRUE(!stat || contains(state, ") Z")) << state;
+}
+
+// --- kernels that give a plausible picture, or used to ---
+
+TEST_F(PluginFault, LightsOnePlaceTooFarAreRefused) {
+  expect_refusals({{{"method", "off-by-one"}}}, "refused",
+                  {"1 of 8 lights of generate.rsm were not written, the first is light 0, and byte 0 past the end of "
+                   "lights.rsm (640 bytes) was written"});
+}
+
+// lavapipe cuts the loop off and goes on with what there is; on a GPU the device is lost.
+TEST_F(PluginFault, LightsBehindAnEndlessLoopAreRefused) {
+  expect_refusals({{{"method", "endless-loop"}}}, "plugin", {"endless_loop.comp: a loop does not end"});
+}
+
+TEST_F(PluginFault, APushBlockOfAnotherSizeIsRefused) {
+  expect_refusals(
+      {{{"method", "push-block"}}, {{"method", "push-block"}, {"block", "smaller"}}}, "plugin",
+      {"push_block.comp: its push-constant block has 12 bytes, and the host pushes 8; make both the same",
+       "push_block.comp: its push-constant block has 4 bytes, and the host pushes 8; make both the same"});
+}
+
+TEST_F(PluginFault, LightsOfMoreThanTheMethodStatesAreRefused) {
+  config_["N"] = 256;  // of 256 texels
+  expect_refusals({{{"method", "too-bright"}}}, "refused",
+                  {"× the texels' power (geometric mean of 1 seeds), and it states at most 1.05 in the mean"});
+}
+
+// Of a black scene only the generation can be measured: there is no picture to score.
+TEST_F(PluginFault, PowerFromNothingIsRefused) {
+  Json gltf = box_gltf();
+  gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 1};
+  gltf["materials"][0]["extensions"] = {{"KHR_materials_specular", {{"specularFactor", 0}}}};
+  config_["scenes"] = {write_scene("black", square_scene(), gltf.dump())};
+  config_["measure"] = "generation";
+  for (const char* key : {"seeds", "reference"}) config_.erase(key);
+  config_["methods"] = {{{"method", "vpl"}}, {{"method", "from-nothing"}}};
+  RunOptions options{.config = write_config(), .out = out_, .argv = {"vsglbench", "run"}};
+  run_config(options);
+  const Report r = read_report(out_ / "report.json");
+  EXPECT_EQ(r.cases.at(0).status, Status::ok) << r.cases[0].error->message;
+  EXPECT_FALSE(r.cases[0].generate->flux) << "undefined where the texels reflect nothing";
+  ASSERT_EQ(r.cases.at(1).status, Status::failed);
+  EXPECT_EQ(r.cases[1].error->kind, "refused");
+  EXPECT_TRUE(contains(r.cases[1].error->message, "power from nothing: the lights carry "));
 }
 
 TEST_F(PluginFault, WhatIsNoMethodIsRefusedByItsCase) {

@@ -7,6 +7,7 @@ VSGLBENCH_METHOD(MethodInfo{
     .source = "[MFIS16] Eq. 3, 5, Alg. 1",
     .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}}},
     .flux_bound = 0.03,
+    .uneven_flux_bound = 0.3,  // [MFIS16 Eq. 5] itself: E[Σ] = ∫ f̄ p/p̄
     .create = [](MethodContext& context, const Json& parameters) {
       return make_filtered_sampling(context, "mfis.comp", parameters.at("K").get<float>());
     }})

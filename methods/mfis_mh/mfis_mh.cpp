@@ -8,6 +8,7 @@ VSGLBENCH_METHOD(MethodInfo{
     .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}},
                    {"steps", 64, "of each chain", 1, 4096, {}}},
     .flux_bound = 0.1,
+    .uneven_flux_bound = 0.3,  // as of mfis
     .create = [](MethodContext& context, const Json& parameters) {
       return make_filtered_sampling(context, "mfis_mh.comp", parameters.at("K").get<float>(),
                                     {{"STEPS", parameters.at("steps").dump() + "u"}});
