@@ -5,6 +5,7 @@
 
 #include "measure/kernel_blocks.h"
 #include "method/filtered_sampling.h"
+#include "method/lattice.h"
 #include "method/made_half.h"
 #include "method/nearest_centre.h"
 
@@ -41,8 +42,8 @@ class WarpBlock : public Block {
     expected_.resize(count_);
     return two_threads_ms([&](int part) {
       for (uint32_t i = part * count_ / 2; i < (part + 1) * count_ / 2; ++i) {
-        const glm::uvec2 u(i * lattice_step(count_), i * 0x9E3779B9u);
-        expected_[i] = pyramid_.warp(u.x * 0x1p-32, u.y * 0x1p-32);
+        const glm::dvec2 u = unit_interval(lattice_point(i, count_, glm::uvec2(0)));
+        expected_[i] = pyramid_.warp(u.x, u.y);
       }
     });
   }

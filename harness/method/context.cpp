@@ -1,6 +1,9 @@
 #include "method/context.h"
 
+#include <algorithm>
+
 #include "base/file.h"
+#include "method/kept_kernels.h"
 
 namespace vsglbench {
 
@@ -11,7 +14,10 @@ std::vector<std::filesystem::path> KernelLibrary::include_dirs() {
 
 const Kernel& KernelLibrary::get(const std::filesystem::path& path, const ShaderDefines& defines) {
   auto& slot = kernels_[{path.string(), defines}];
-  if (!slot) slot = std::make_unique<Kernel>(device_, path, defines, include_dirs());
+  if (slot) return *slot;
+  const auto kept = kept_includes(path.parent_path());
+  slot = std::make_unique<Kernel>(device_, path, defines,
+                                  kept.empty() ? include_dirs() : std::vector<std::filesystem::path>{kept});
   return *slot;
 }
 
@@ -19,7 +25,8 @@ Buffer& ScratchPool::get(const std::string& name, size_t bytes) {
   Buffer& buffer = buffers_[name];
   if (!buffer || buffer.size() < bytes) {
     buffer = Buffer();  // give the old one back first: both may not fit
-    buffer = Buffer(device_, name, bytes);
+    buffer = Buffer(device_, name, bytes, kGuardBytes);
+    buffer.fill(unwritten_word, (buffer.size() + buffer.guard()) / 4 * 4, 0);
   }
   return buffer;
 }
@@ -35,7 +42,8 @@ const Kernel& MethodContext::kernel(const std::string& file, const ShaderDefines
 }
 
 const Kernel& MethodContext::shared_kernel(const std::string& file, const ShaderDefines& defines) {
-  return use(data_root() / "harness" / "method" / "shaders" / file, defines);
+  const auto kept = kept_includes(folder_);
+  return use((kept.empty() ? data_root() / "harness" / "method" / "shaders" : kept) / file, defines);
 }
 
 const Kernel& MethodContext::use(const std::filesystem::path& path, const ShaderDefines& defines) {
@@ -47,6 +55,8 @@ const Kernel& MethodContext::use(const std::filesystem::path& path, const Shader
 
 Buffer& MethodContext::scratch(const std::string& name, size_t bytes) {
   used_bytes_[name] = bytes;
+  size_t& most = most_bytes_[name];
+  most = std::max(most, bytes);
   return scratch_.get(name, bytes);
 }
 

@@ -27,9 +27,11 @@ class KernelLibrary {
 };
 
 // Device buffers by name, shared by all cases of a run: what they hold lasts for one frame only. A buffer
-// grows when a larger one is asked for; ask again in every frame instead of keeping the reference.
+// grows when a larger one is asked for; ask again in every frame instead of keeping the reference. Behind each lies
+// a guard; both hold unwritten_word at first.
 class ScratchPool {
  public:
+  static constexpr size_t kGuardBytes = 16384;
   explicit ScratchPool(Device& device) : device_(device) {}
   Buffer& get(const std::string& name, size_t bytes);
   size_t bytes() const;
@@ -58,6 +60,8 @@ class MethodContext {
   const std::set<std::filesystem::path>& kernel_files() const { return used_files_; }
   size_t scratch_bytes() const;
   const std::map<std::string, size_t>& scratch_buffers() const { return used_bytes_; }  // bytes by name
+  // The same, of what was asked for under a name the most.
+  const std::map<std::string, size_t>& largest_scratch() const { return most_bytes_; }
 
  private:
   KernelLibrary& kernels_;
@@ -67,7 +71,7 @@ class MethodContext {
   const Kernel& use(const std::filesystem::path& path, const ShaderDefines& defines);
   std::set<const Kernel*> used_kernels_;
   std::set<std::filesystem::path> used_files_;
-  std::map<std::string, size_t> used_bytes_;
+  std::map<std::string, size_t> used_bytes_, most_bytes_;
 };
 
 }  // namespace vsglbench

@@ -81,7 +81,7 @@ TEST_P(FilteredSamplingOracle, MatchesDouble) {
   std::vector<double> differences;
   for (uint32_t i = 0; i < count; ++i) {
     const auto rule = method == "fis" ? oracle::Rule::fis : oracle::Rule::mfis;
-    const auto c = oracle::filtered_light(half, pyramid, rule, k, count, lattice_fixed(i, count, shift));
+    const auto c = oracle::filtered_light(half, pyramid, rule, k, count, lattice_point(i, count, shift));
     differences.push_back(difference(lights[i], c));
   }
   EXPECT_LT(worst_but(differences, count / 100), 1e-4);
@@ -130,8 +130,8 @@ TEST(Generate, WithAsManyLightsAsTexelsEachIsATexel) {
   const oracle::Pyramid pyramid(uniform);
   size_t lit = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    const auto fixed = lattice_fixed(i, count, {0, 0});
-    const auto t = pyramid.warp(((fixed.x >> 9) + 0.5) * 0x1p-23, ((fixed.y >> 9) + 0.5) * 0x1p-23);
+    const auto fixed = lattice_point(i, count, {0, 0});
+    const auto t = pyramid.warp(unit_interval(fixed).x, unit_interval(fixed).y);
     const auto texel = oracle::make_vsgl(oracle::texel_sums(half, t.x, t.y), 1);
     EXPECT_EQ(lights[i].level, 0);
     if (!(texel.power > 0)) {

@@ -25,8 +25,8 @@ std::vector<glm::dvec3> draw_centres(const oracle::Half& half, int dimensions, u
   const oracle::Pyramid pyramid(half);
   std::vector<glm::dvec3> centres;
   for (uint32_t i = 0; i < count; ++i) {
-    const glm::uvec2 u = lattice_fixed(i, count, shift);
-    const glm::uvec2 t = pyramid.warp(u.x * 0x1p-32, u.y * 0x1p-32);
+    const glm::dvec2 u = unit_interval(lattice_point(i, count, shift));
+    const glm::uvec2 t = pyramid.warp(u.x, u.y);
     const size_t texel = size_t(t.y) * half.emitter.width + t.x;
     const bool usable = dimensions == 2 || half.texels[texel].surface;
     centres.push_back(usable ? place(half, texel, dimensions)

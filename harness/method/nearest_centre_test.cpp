@@ -208,8 +208,8 @@ TEST(CentreSampler, ChoosesTheTexelsThatTheWarpDoes) {
     const auto [centres, ids] = bench.sampled(pdf_pyramid(half), count, dimensions, Search::tiles);
     uint32_t apart = 0;
     for (uint32_t i = 0; i < count; ++i) {
-      const auto fixed = lattice_fixed(i, count, NearestBench::kShift);
-      const glm::uvec2 t = pyramid.warp(((fixed.x >> 9) + 0.5) * 0x1p-23, ((fixed.y >> 9) + 0.5) * 0x1p-23);
+      const auto fixed = lattice_point(i, count, NearestBench::kShift);
+      const glm::uvec2 t = pyramid.warp(unit_interval(fixed).x, unit_interval(fixed).y);
       const glm::vec4 expected(query_of(positions, size, dimensions, t.y * size.x + t.x), 1);
       apart += centres[i] != expected;
     }

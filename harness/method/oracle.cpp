@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "method/lattice.h"
+
 namespace vsglbench::oracle {
 namespace {
 
@@ -125,6 +127,17 @@ Pyramid::Pyramid(const Half& half) : width_(half.emitter.width), height_(half.em
   }
 }
 
+namespace {
+
+// Of the upper of two texels on one axis, the last of which may cover a part c of its block: such that its weight at all
+// base texels together is what it covers. Linear weights are for c >= 1/2; below, their sum is (1/2 + c)²/2.
+double upper_weight(uint32_t base, uint32_t level, uint32_t upper, double f) {
+  const double block = 1u << level, c = std::min(1.0, base / block - upper);
+  return c < 0.5 ? f * c / ((0.5 + c) * (0.5 + c) / 2) : f;
+}
+
+}  // namespace
+
 template <class Value, class Get>
 Value Pyramid::bilinear(double px, double py, uint32_t l, const Get& get) const {
   const Level& level = levels_[l];
@@ -133,7 +146,7 @@ Value Pyramid::bilinear(double px, double py, uint32_t l, const Get& get) const 
   const double y = std::clamp(py / scale - 0.5, 0.0, double(level.height - 1));
   const auto x0 = static_cast<uint32_t>(x), y0 = static_cast<uint32_t>(y);
   const uint32_t x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
-  const double fx = x - x0, fy = y - y0;
+  const double fx = upper_weight(width_, l, x1, x - x0), fy = upper_weight(height_, l, y1, y - y0);
   Value v{};
   get(v, level, y0 * level.width + x0, (1 - fx) * (1 - fy));
   get(v, level, y0 * level.width + x1, fx * (1 - fy));
@@ -190,7 +203,8 @@ glm::uvec2 Pyramid::warp(double ux, double uy) const {
 
 Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count,
                     glm::uvec2 fixed) {
-  const glm::uvec2 t = pyramid.warp(((fixed.x >> 9) + 0.5) * 0x1p-23, ((fixed.y >> 9) + 0.5) * 0x1p-23);
+  const glm::dvec2 u = unit_interval(fixed);
+  const glm::uvec2 t = pyramid.warp(u.x, u.y);
   const double x = t.x + 0.5, y = t.y + 0.5, m = double(half.emitter.width) * half.emitter.height;
   double level = 0, share = 0;
   if (rule == Rule::fis) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <map>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -14,9 +15,9 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-// Sizes behind ABI 3. Where one fails: raise plugin_abi, then put the new size here.
+// Sizes behind ABI 4. Where one fails: raise plugin_abi, then put the new size here.
 TEST(PluginAbi, TheLayoutsOfSharedTypesAreThoseOfItsNumber) {
-  ASSERT_EQ(plugin_abi, 3u);
+  ASSERT_EQ(plugin_abi, 4u);
   EXPECT_EQ(sizeof(gpu::Vsgl), 80u);
   EXPECT_EQ(sizeof(gpu::Vpl), 112u);
   EXPECT_EQ(sizeof(gpu::Emitter), 88u);
@@ -24,9 +25,9 @@ TEST(PluginAbi, TheLayoutsOfSharedTypesAreThoseOfItsNumber) {
   EXPECT_EQ(sizeof(LightTarget), 24u);
   EXPECT_EQ(sizeof(Steps), 40u);
   EXPECT_EQ(sizeof(ParameterInfo), 120u);
-  EXPECT_EQ(sizeof(MethodInfo), 296u);
-  EXPECT_EQ(sizeof(MethodContext), 248u);
-  EXPECT_EQ(sizeof(Buffer), 48u);
+  EXPECT_EQ(sizeof(MethodInfo), 304u);
+  EXPECT_EQ(sizeof(MethodContext), 296u);
+  EXPECT_EQ(sizeof(Buffer), 56u);
   EXPECT_EQ(sizeof(Recorder), 104u);
   EXPECT_EQ(sizeof(DeviceInfo), 256u);
 }
@@ -67,6 +68,24 @@ TEST_F(RegistryTest, APluginIsNamedByItsFileAndHashedWithItsKernels) {
   EXPECT_EQ(plugin_hash(copy), hash);
   write_text(folder_ / "mfis-before" / "mfis.comp", "two");
   EXPECT_NE(plugin_hash(copy), hash);
+}
+
+// As it was built: whatever becomes of the kernels in the source tree and of what they include.
+TEST_F(RegistryTest, ACopyByItselfHasTheKernelsThatItWasBuiltWith) {
+  ::setenv("VSGLBENCH_CACHE", (folder_ / "cache").c_str(), 1);
+  fs::copy_file(find_method("mfis").library, folder_ / "mfis-old.so");
+  EXPECT_EQ(inspect_plugin(folder_ / "mfis-old.so").refused, "");
+  const MethodInfo old = load_plugin(folder_ / "mfis-old.so", DeviceInfo{});
+  ::unsetenv("VSGLBENCH_CACHE");
+  EXPECT_EQ(old.name, "mfis-old");
+  EXPECT_EQ(old.folder.parent_path().parent_path(), folder_ / "cache" / "kernels");
+  for (const auto& [kept, file] : std::map<std::string, std::string>{
+           {"kernels/mfis.comp", "methods/mfis/mfis.comp"},
+           {"included/warp.glsl", "harness/shaders/warp.glsl"},
+           {"included/types.h", "harness/shaders/types.h"},
+           {"included/moments_mip.comp", "harness/method/shaders/moments_mip.comp"}}) {
+    EXPECT_EQ(read_text(old.folder.parent_path() / kept), read_text(data_root() / file)) << kept;
+  }
 }
 
 TEST_F(RegistryTest, WhatIsNoPluginIsRefusedInOneLine) {

@@ -15,6 +15,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/nearest.h"
+#include "method/kept_kernels.h"
 #include "method/plugin.h"
 
 namespace fs = std::filesystem;
@@ -91,7 +92,8 @@ MethodInfo refuse(const fs::path& library, const std::string& why) {
 // A default outside its own range, or one name twice, is the plugin's mistake: better told now than in a run.
 std::string mistake_in(const MethodInfo& info) {
   if (!info.create) return "has no `create`";
-  if (!std::isfinite(info.flux_bound)) return fmt::format("has a flux_bound of {}", info.flux_bound);
+  for (const double bound : {info.flux_bound, info.uneven_flux_bound})
+    if (!std::isfinite(bound)) return fmt::format("has a flux_bound of {}", bound);
   for (const auto& p : info.parameters) {
     if (!std::isfinite(p.minimum) || !std::isfinite(p.maximum)) {
       return fmt::format("has a parameter '{}' within {} … {}; both must be finite", p.name, p.minimum,
@@ -112,7 +114,7 @@ std::string mistake_in(const MethodInfo& info) {
 
 // Opens it in this process, for good.
 MethodInfo open_plugin(const fs::path& library) {
-  const MethodInfo place = named_after(library);
+  MethodInfo place = named_after(library);
   void* handle = ::dlopen(place.library.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(library, fmt::format("can't be loaded: {}", ::dlerror()));
   using Entry = const PluginHeader* (*)();
@@ -125,6 +127,13 @@ MethodInfo open_plugin(const fs::path& library) {
                                        header->abi, plugin_abi));
   }
   if (!fs::is_directory(place.folder)) {
+    try {
+      place.folder = unpack_kernels(static_cast<const char* const*>(::dlsym(handle, "vsglbench_kernels")));
+    } catch (const Error& e) {
+      return refuse(library, fmt::format("its kernels can't be unpacked: {}", e.what()));
+    }
+  }
+  if (place.folder.empty()) {
     return refuse(library, fmt::format("its folder of kernels {}/ is missing; copy it too", place.name));
   }
   MethodInfo info = header->info();
@@ -144,6 +153,7 @@ MethodInfo from_json(const Json& j, const fs::path& library) {
   info.makes_vpls = j.at("makes_vpls");
   info.device_features = j.at("device_features");
   info.flux_bound = j.at("flux_bound");
+  info.uneven_flux_bound = j.at("uneven_flux_bound");
   info.refused = j.value("refused", "");
   for (const auto& p : j.at("parameters")) {
     info.parameters.push_back({p.at("name"), p.at("default"), p.at("description"), p.value("minimum", 0.0),
@@ -285,9 +295,7 @@ std::string plugin_hash(const MethodInfo& method) {
     if (extension == ".comp" || extension == ".glsl") files[entry.path().filename()] = entry.path();
   }
   Hasher hasher;
-  for (const auto& [name, path] : files) {
-    hasher.text(name).text(read_text(path));
-  }
+  for (const auto& [name, path] : files) hasher.text(name).text(read_text(path));
   return hasher.hex();
 }
 
@@ -312,6 +320,7 @@ Json to_json(const MethodInfo& method) {
             {"parameters", std::move(parameters)},
             {"device_features", method.device_features},
             {"flux_bound", method.flux_bound},
+            {"uneven_flux_bound", method.worst_flux_bound()},
             {"library", method.library.string()}};
   if (!method.refused.empty()) j["refused"] = method.refused;
   return j;

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "method/filtered_sampling.h"
+#include "method/lattice.h"
 #include "method/made_half.h"
 #include "method/registry.h"
 
@@ -47,9 +48,5 @@ class MethodBench {
   MethodContext context_;
   std::unique_ptr<Method> method_;
 };
-
-inline glm::uvec2 lattice_fixed(uint32_t i, uint32_t count, glm::uvec2 shift) {
-  return glm::uvec2(i * lattice_step(count), i * 0x9E3779B9u) + shift;
-}
 
 }  // namespace vsglbench

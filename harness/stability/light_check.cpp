@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "method/light_kernel.h"
+#include "method/lattice.h"
 #include "shaders/sg_exact.h"
 
 namespace vsglbench {
@@ -95,7 +95,8 @@ Difference filtered_difference(const LightsAsked& asked, const oracle::Pyramid& 
   const double k = asked.parameters.at("K").get<double>();
   const oracle::Vsgl whole = oracle::filtered_light(asked.half, pyramid, rule, k, count, fixed);
   const gpu::Emitter& e = asked.half.emitter;
-  const glm::uvec2 t = pyramid.warp((fixed.x >> 8) * 0x1p-24, (fixed.y >> 8) * 0x1p-24);
+  const glm::dvec2 u = unit_interval(fixed);
+  const glm::uvec2 t = pyramid.warp(u.x, u.y);
   const double x = t.x + 0.5, y = t.y + 0.5, texels = double(e.width) * e.height;
   const double level = std::clamp<double>(light.level, 0, pyramid.top());
   const double share = rule == oracle::Rule::fis ? 1 / std::max(count * pyramid.pdf(x, y, 0), 1.0)
@@ -115,9 +116,8 @@ void check_filtered(const LightsAsked& asked, oracle::Rule rule, const LightReco
                     Verdict* verdict) {
   const oracle::Pyramid pyramid(asked.half);
   const auto count = static_cast<uint32_t>(lights.count());
-  const uint32_t step = lattice_step(count);
   for (uint32_t i = 0; i < count; ++i) {
-    const glm::uvec2 fixed = glm::uvec2(i * step, i * 0x9E3779B9u) + asked.shift;
+    const glm::uvec2 fixed = lattice_point(i, count, asked.shift);
     const auto against = [&](glm::uvec2 point) {
       return filtered_difference(asked, pyramid, rule, count, point, lights.vsgl(i));
     };
