@@ -2,96 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
 
 namespace vsglbench {
 namespace {
 
-// A side of a square: what it adds to the number of lights to its right.
-struct Edge {
-  double x;
-  int step;
-  bool operator<(const Edge& o) const { return x != o.x ? x < o.x : step < o.step; }
-};
-
-// A square enters or leaves the scanline.
-struct Event {
-  double y;
-  bool enters;
-  Edge left, right;
-};
-
-std::vector<Event> events_of(const std::vector<glm::vec4>& squares, double width, double height) {
-  std::vector<Event> events;
-  for (const glm::vec4& s : squares) {
-    const double half = 0.5 * s.z;
-    const double x0 = std::clamp(s.x - half, 0.0, width), x1 = std::clamp(s.x + half, 0.0, width);
-    const double y0 = std::clamp(s.y - half, 0.0, height), y1 = std::clamp(s.y + half, 0.0, height);
-    if (!(x0 < x1 && y0 < y1)) continue;
-    events.push_back({y0, true, {x0, 1}, {x1, -1}});
-    events.push_back({y1, false, {x0, 1}, {x1, -1}});
-  }
-  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.y < b.y; });
-  return events;
-}
-
-// The edges on the scanline, from left to right.
-class Scanline {
+// How often each texel of an image is counted, from rectangles of texels that each add an amount: differences, summed
+// up once.
+class Counts {
  public:
-  void apply(const Event& event) {
-    for (const Edge& edge : {event.left, event.right}) {
-      const auto at = std::lower_bound(edges_.begin(), edges_.end(), edge);
-      if (event.enters) {
-        edges_.insert(at, edge);
-      } else {
-        edges_.erase(at);
+  Counts(uint32_t width, uint32_t height)
+      : width_(width), height_(height), steps_((size_t(width) + 1) * (size_t(height) + 1), 0) {}
+  void add(glm::uvec2 from, glm::uvec2 to, double amount) {
+    step(from.x, from.y) += amount;
+    step(to.x, from.y) -= amount;
+    step(from.x, to.y) -= amount;
+    step(to.x, to.y) += amount;
+  }
+  std::vector<double> texels() const {
+    std::vector<double> out(size_t(width_) * height_), above(width_, 0);
+    for (uint32_t y = 0; y < height_; ++y) {
+      double row = 0;
+      for (uint32_t x = 0; x < width_; ++x) {
+        row += steps_[size_t(y) * (width_ + 1) + x];
+        above[x] += row;
+        out[size_t(y) * width_ + x] = above[x];
       }
     }
+    return out;
   }
-  // span(from, to, count) for each part of 0 … width.
-  template <class Span>
-  void spans(double width, const Span& span) const {
-    double from = 0;
-    int count = 0;
-    for (const Edge& edge : edges_) {
-      if (edge.x > from) span(from, edge.x, count);
-      from = edge.x;
-      count += edge.step;
+
+ private:
+  double& step(uint32_t x, uint32_t y) { return steps_[size_t(y) * (width_ + 1) + x]; }
+  uint32_t width_, height_;
+  std::vector<double> steps_;
+};
+
+// On one axis of a level, the two texels that bilinear filtering at `position` reads, and their weights
+// (shaders/pyramid.glsl).
+struct AxisTaps {
+  uint32_t block, from[2], to[2];  // in base texels
+  double weight[2];
+};
+AxisTaps axis_taps(uint32_t base, uint32_t level, double position) {
+  const uint32_t block = 1u << level, size = (base + block - 1) / block;
+  const double centre = std::clamp(position / block - 0.5, 0.0, size - 1.0);
+  const auto lower = static_cast<uint32_t>(centre);
+  const uint32_t upper = std::min(lower + 1, size - 1);
+  const double part = std::min(1.0, static_cast<double>(base) / block - upper);
+  double f = centre - lower;
+  if (part < 0.5) f *= 2 * part / ((0.5 + part) * (0.5 + part));
+  const auto end = [&](uint32_t texel) { return std::min(base, (texel + 1) * block); };
+  return {block, {lower * block, upper * block}, {end(lower), end(upper)}, {1 - f, f}};
+}
+
+// The mean over a texel's block counts `times` times in all: each of its base texels, times over their number.
+void add_level(Counts* counts, const glm::vec4& kernel, uint32_t level, double times, glm::uvec2 size) {
+  const AxisTaps x = axis_taps(size.x, level, kernel.x), y = axis_taps(size.y, level, kernel.y);
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const double texels = double(x.to[i] - x.from[i]) * (y.to[j] - y.from[j]);
+      counts->add({x.from[i], y.from[j]}, {x.to[i], y.to[j]}, times * x.weight[i] * y.weight[j] / texels);
     }
-    if (width > from) span(from, width, count);
   }
+}
 
- private:
-  std::vector<Edge> edges_;
-};
-
-// ∫ of a row of the PDF from its left end to x.
-class RowIntegral {
- public:
-  void set(const float* row, uint32_t width) {
-    row_ = row;
-    sums_.assign(1, 0);
-    for (uint32_t x = 0; x < width; ++x) sums_.push_back(sums_.back() + row[x]);
-  }
-  double to(double x) const {
-    const auto texel = std::min(static_cast<size_t>(x), sums_.size() - 2);
-    return sums_[texel] + (x - static_cast<double>(texel)) * row_[texel];
-  }
-
- private:
-  const float* row_ = nullptr;
-  std::vector<double> sums_;
-};
-
-// Integrals over what is below the scanline.
 struct Integrals {
   double all = 0, overlap = 0, gap = 0;
-  void add(double amount, int count) {
+  void add(double amount, double count) {
     all += amount;
-    overlap += std::max(count - 1, 0) * amount;
-    if (count == 0) gap += amount;
+    overlap += std::max(count - 1, 0.0) * amount;
+    gap += std::max(1 - count, 0.0) * amount;
   }
 };
 
@@ -144,27 +126,25 @@ RsmShapes read_shapes(const LightShapes& shapes, uint32_t lights, uint64_t texel
   return out;
 }
 
-Coverage cover_squares(const std::vector<glm::vec4>& squares, uint32_t width, uint32_t height,
+Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, uint32_t height,
                        const std::vector<float>& pdf) {
-  const std::vector<Event> events = events_of(squares, width, height);
-  Scanline scanline;
-  RowIntegral row_pdf;
-  Integrals area, weighted;
-  auto event = events.begin();
-  for (uint32_t row = 0; row < height; ++row) {
-    if (!pdf.empty()) row_pdf.set(&pdf[size_t(row) * width], width);
-    // Strips of the row between one event and the next: the scanline is the same all through.
-    for (double y = row; y < row + 1.0;) {
-      for (; event != events.end() && event->y <= y; ++event) scanline.apply(*event);
-      const double end = event == events.end() ? row + 1.0 : std::min(row + 1.0, event->y);
-      scanline.spans(width, [&](double from, double to, int count) {
-        area.add((end - y) * (to - from), count);
-        if (!pdf.empty()) weighted.add((end - y) * (row_pdf.to(to) - row_pdf.to(from)), count);
-      });
-      y = end;
-    }
+  uint32_t top = 0;
+  while ((uint64_t{1} << top) < std::max(width, height)) ++top;
+  Counts counts(width, height);
+  for (const glm::vec4& kernel : kernels) {
+    if (!(kernel.z > 0)) continue;
+    const double level = std::clamp(std::log2(double(kernel.z)), 0.0, double(top)), area = std::exp2(2 * level);
+    const auto lower = static_cast<uint32_t>(level);
+    add_level(&counts, kernel, lower, area * (1 - (level - lower)), {width, height});
+    add_level(&counts, kernel, std::min(lower + 1, top), area * (level - lower), {width, height});
   }
-  return means(area, weighted);
+  Integrals all, weighted;
+  const std::vector<double> count = counts.texels();
+  for (size_t i = 0; i < count.size(); ++i) {
+    all.add(1, count[i]);
+    if (!pdf.empty()) weighted.add(pdf[i], count[i]);
+  }
+  return means(all, weighted);
 }
 
 Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
@@ -180,7 +160,7 @@ Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
 
 std::optional<Coverage> coverage_of(const RsmShapes& shapes, uint32_t lights, uint32_t width, uint32_t height,
                                     const std::vector<float>& pdf) {
-  if (!shapes.squares.empty()) return cover_squares(shapes.squares, width, height, pdf);
+  if (!shapes.squares.empty()) return cover_kernels(shapes.squares, width, height, pdf);
   if (!shapes.clusters.empty()) return cover_clusters(shapes.clusters, lights, pdf);
   return std::nullopt;
 }

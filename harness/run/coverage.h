@@ -19,20 +19,21 @@ struct RsmShapes {
 // Throws Error(plugin) for a square that is not finite or of negative side, and a texel outside of the RSM.
 RsmShapes read_shapes(const LightShapes& shapes, uint32_t lights, uint64_t texels);
 
-// Of an area, where c lights hold a point. overlap + gap is the mean of |c - 1|: how far the lights are from
-// holding every point once.
+// Of an area of which c lights hold each texel, whole or in part. overlap + gap is the mean of |c - 1|: how far the
+// lights are from holding every texel once.
 struct Coverage {
-  double overlap = 0;  // mean of max(c - 1, 0): 1 where every point has one light too many
-  double gap = 0;      // share of the area with c = 0
-  // The same means over points distributed as the PDF: where that is 0 nobody needs a light. Absent without
+  double overlap = 0;  // mean of max(c - 1, 0): 1 where every texel has one light too many
+  double gap = 0;      // mean of max(1 - c, 0): 1 where no texel has one
+  // The same means over texels distributed as the PDF: where that is 0 nobody needs a light. Absent without
   // a PDF, or with one that is 0 everywhere.
   std::optional<double> pdf_overlap, pdf_gap;
 };
 
-// Of axis-aligned squares, clipped to `width` × `height` texels. Exact but for rounding in double precision,
-// below 1e-9 for up to 2^16 squares: a scanline over the squares' own edges and the texels' rows. `pdf`: of
-// any scale, constant on each texel, row by row; may be empty.
-Coverage cover_squares(const std::vector<glm::vec4>& squares, uint32_t width, uint32_t height,
+// Of filtering kernels (LightShapes::squares): each is a trilinear filter at its centre, whose mip level l has texels as
+// large as its side, and its light stands for 4^l texels of the filtered mean. The texels that the taps read count by
+// their weights in that; so a light of `mfis` at K = 1 counts each as often as it carries the texel's flux. `pdf`: of any
+// scale, row by row; may be empty.
+Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, uint32_t height,
                        const std::vector<float>& pdf);
 // Of a partition: no overlap.
 Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
