@@ -119,7 +119,7 @@ TEST(ImportanceOracle, SeesPlantedFaults) {
        {Fault{"vsgl", "VSGLBENCH_RECEIVER_GLSL", "r.peak = ndf_peak(s.ndf);",
               "r.peak = ndf_peak(s.ndf); float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;"},
         Fault{"vpl", "VSGLBENCH_BRDF_GLSL", "fresnel(s.f0, dot(l, h))) * nl;", "fresnel(s.f0, dot(l, h)));"},
-        Fault{"vsgl", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine;", "r.alpha);"},
+        Fault{"vsgl", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine * lobe", "r.alpha) * lobe"},
         Fault{"vpl", "// BRSM:", "luminance(t.flux * sum)", "2.0 * luminance(t.flux * sum)"}}) {
     const uint32_t lights = f.importance == std::string("vsgl") ? 4096 : 256;
     const Difference sound = difference(f.importance, lights);
