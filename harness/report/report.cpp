@@ -1,6 +1,7 @@
 #include "report/report.h"
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <stdexcept>
 
@@ -23,6 +24,15 @@ MetricResult over_seeds(Metric metric, const std::vector<SeedResult>& seeds) {
   result.value = mean.mean;
   if (mean.known) result.ci95 = mean.ci95;
   return result;
+}
+
+// bias = X/R - 1, so that an error of R, relative to it, moves it by (1 + bias) times as much.
+void widen(MetricResult* bias, const ReferenceInfo& reference) {
+  if (!bias->value || reference.batches < 2) return;
+  const double of_reference = student_t95(static_cast<int>(reference.batches) - 1) * reference.standard_error *
+                              std::abs(1 + *bias->value);
+  const double half = std::hypot(bias->ci95 ? bias->ci95->width() / 2 : 0, of_reference);
+  bias->ci95 = Interval{*bias->value - half, *bias->value + half};
 }
 
 bool starts_with_any(const std::string& name, const std::vector<std::string>& prefixes) {
@@ -63,6 +73,7 @@ Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const Referen
   a.rrmse = over_seeds(Metric::rrmse, seeds);
   a.mrse = over_seeds(Metric::mrse, seeds);
   a.bias = over_seeds(Metric::bias, seeds);
+  widen(&a.bias, reference);
   a.reference = reference;
   a.pixels = seeds.front().errors.pixels;
   a.below_floor = *a.smape.value <= reference.noise_floor_smape;

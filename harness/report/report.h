@@ -99,6 +99,9 @@ struct ReferenceInfo {
   uint64_t samples = 0;          // paths a pixel
   double noise_floor_smape = 0;  // its two halves against each other, percent
   std::optional<double> noise_floor_rmse;
+  uint64_t batches = 0;              // independent estimates; 0: not known
+  double standard_error = 0;         // of its mean over pixels and channels, relative to it
+  std::string ended_by = "samples";  // or "floor", "time_limit"
 };
 
 struct Accuracy {
@@ -211,7 +214,8 @@ struct Report {
 
 HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
 
-// Means and intervals over seeds; a metric that any seed lacks is undefined. Throws Error(case_failed) for no
+// Means and intervals over seeds; that of bias is widened in quadrature by the reference's own standard error,
+// and is the reference's alone for a single seed; a metric that any seed lacks is undefined. Throws Error(case_failed) for no
 // seeds.
 Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference);
 

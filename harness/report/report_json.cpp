@@ -117,6 +117,9 @@ void fields(auto& a, Is<ReferenceInfo> auto& v) {
   a("samples", v.samples);
   a("noise_floor_smape", v.noise_floor_smape);
   a("noise_floor_rmse", v.noise_floor_rmse);
+  a("batches", v.batches);
+  a("standard_error", v.standard_error);
+  a("ended_by", v.ended_by);
 }
 
 void fields(auto& a, Is<Accuracy> auto& v) {

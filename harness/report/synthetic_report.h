@@ -36,7 +36,7 @@ inline CaseResult synthetic_case(const std::string& id) {
     const double d = static_cast<double>(seed) - 3.5;
     c.seeds.push_back({seed, {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000}});
   }
-  c.accuracy = accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001});
+  c.accuracy = accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001, 16, 0.002, "floor"});
   c.accuracy->quantiles = ErrorQuantiles{5, 80, 150};
   c.temporal = Temporal{{0.1, 0.2, 3, {0.1, 0.1, 0.2}}, {0.05, 0.1, 1, {0.05, 0.1}}};
   c.health = HealthReport{0, 0, 3, std::nullopt};

@@ -256,8 +256,12 @@ CaseResult CaseRun::result() const {
     r.generate->rsm_ms = rsm ? rsm->median : 0;
   }
   if (!seeds_.empty()) {
-    r.accuracy = accuracy_over_seeds(seeds_, {input_.reference->hash, input_.reference->samples,
-                                              input_.reference->noise_floor_smape, std::nullopt});
+    ReferenceInfo info = {input_.reference->hash, input_.reference->samples,
+                          input_.reference->noise_floor_smape, std::nullopt};
+    info.batches = input_.reference->batches;
+    info.standard_error = input_.reference->standard_error;
+    info.ended_by = name(input_.reference->ended_by);
+    r.accuracy = accuracy_over_seeds(seeds_, info);
     r.accuracy->quantiles = quantiles_;
     r.seeds = seeds_;
   }
