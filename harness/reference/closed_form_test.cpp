@@ -34,7 +34,7 @@ TEST(ReferenceClosedForm, MatchesQuadratureOverALitPatch) {
       {{{-half, 1, -half}, {2 * half, 0, 0}, {0, 0, 2 * half}, 0}, {{-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 1}},
       {test::lambert(glm::vec3(rd_patch)), test::lambert(glm::vec3(rd_floor))}, light,
       test::camera_at({0, 0.9f, 3}, {0, 0, 0}, 0.35f));
-  ReferenceParameters p = small(1024);
+  ReferenceParameters p = small(4096);
   const ReferenceResult r = compute_reference(scene, p);
 
   const glm::dvec3 apex(scene.light.position);
