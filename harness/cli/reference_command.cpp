@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "base/percent.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "reference/cache.h"
 #include "run/memory.h"
+#include "run/references.h"
 #include "run/runner.h"
 #include "run/scene_images.h"
 #include "scene/scene_file.h"
@@ -19,24 +21,41 @@ struct ReferenceOptions {
   std::filesystem::path out = ".", assets;
   ReferenceParameters parameters;
   bool no_occlusion = false;
+  std::string floor, shading_normals = "light";
+  double time_limit = 600;
 };
 
+ReferenceParameters resolved(const ReferenceOptions& options) {
+  ReferenceParameters p = options.parameters;
+  p.occlusion = !options.no_occlusion;
+  p.shading_normals = *shading_normals_named(options.shading_normals);
+  if (options.floor.empty()) return p;
+  p.floor = *parse_percent(options.floor);
+  p.time_limit = options.time_limit;
+  return p;
+}
+
+std::string check_floor(const std::string& text) {
+  const double floor = parse_percent(text).value_or(0);
+  return floor > 0 && floor < 200 ? "" : "give percent of SMAPE, above 0 and under 200, such as 2%";
+}
+
 void compute(const ReferenceOptions& options) {
+  const ReferenceParameters parameters = resolved(options);
   ensure_writable_directory(options.out);
   const Scene scene = load_scene(options.scene, {data_root() / "scenes", assets_directory(options.assets)});
-  ReferenceParameters parameters = options.parameters;
   require_reference_memory(parameters.width, parameters.height);
-  parameters.occlusion = !options.no_occlusion;
   bool cached = false;
   const ReferenceResult r = load_or_compute(scene, parameters, &cached);
   const std::string stem = file_name(scene.name) + (options.no_occlusion ? ".no-occlusion" : "");
   write_exr(options.out / (stem + ".reference.exr"), r.mean, r.mask);
   write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
   fmt::print(
-      "{}{}: {} triangles, {} samples, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE, hash {}\n",
-      scene.name, options.no_occlusion ? " without occlusion" : "", scene.triangles.size(), r.samples,
+      "{}{}: {} triangles, {} samples in {} batches, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE{}, "
+      "standard error of the mean {:.3f} %, hash {}\n",
+      scene.name, options.no_occlusion ? " without occlusion" : "", scene.triangles.size(), r.samples, r.batches,
       static_cast<double>(r.rays) * 1e-6, format_duration(r.seconds), cached ? "from the cache" : "computed",
-      r.noise_floor_smape, r.hash);
+      r.noise_floor_smape, end_of_search(r, parameters), 100 * r.standard_error, r.hash);
   fmt::print("{}\n", (options.out / (stem + ".reference.exr")).string());
 }
 
@@ -58,6 +77,21 @@ void add_reference_command(CLI::App& app, CommandResult*) {
       ->capture_default_str();
   command->add_option("--samples", options->parameters.samples, "a pixel and strategy")
       ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command
+      ->add_option("--batches", options->parameters.batches,
+                   "independent estimates that the noise is told from; even")
+      ->check(CLI::Range(2, 1024))
+      ->capture_default_str();
+  command->add_option("--floor", options->floor, "go on until this noise floor is reached, such as 2%")
+      ->check(CLI::Validator(check_floor, "PERCENT"));
+  command->add_option("--time-limit", options->time_limit, "seconds after which the search for --floor ends")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--shading-normals", options->shading_normals,
+                   "convention at the first bounce, see README: light or camera")
+      ->check(CLI::IsMember({"light", "camera"}))
       ->capture_default_str();
   command->add_option("--seed", options->parameters.seed, "of the random numbers")->capture_default_str();
   command->add_flag("--no-occlusion", options->no_occlusion, "ignore occluders between the two bounces");

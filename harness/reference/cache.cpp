@@ -39,7 +39,8 @@ void store(const ReferenceResult& r, const ReferenceParameters& p) {
       {"hash", r.hash},       {"images", image_hash(r)},  {"width", p.width},
       {"height", p.height},   {"occlusion", p.occlusion}, {"seed", p.seed},
       {"samples", r.samples}, {"batches", r.batches},     {"photons", r.photons},
-      {"rays", r.rays},       {"seconds", r.seconds},     {"noise_floor_smape", r.noise_floor_smape}};
+      {"rays", r.rays},       {"seconds", r.seconds},     {"noise_floor_smape", r.noise_floor_smape},
+      {"standard_error", r.standard_error}, {"ended_by", static_cast<int>(r.ended_by)}};
   write_text(cache_file(r.hash, ".json"), meta.dump(1) + "\n");
 }
 
@@ -61,6 +62,8 @@ ReferenceResult parse(const std::string& hash) {
   r.rays = meta.at("rays");
   r.seconds = meta.at("seconds");
   r.noise_floor_smape = noise_floor_of(r.half[0], r.half[1], r.mean, r.mask).smape;
+  r.standard_error = meta.at("standard_error");
+  r.ended_by = static_cast<ReferenceEnd>(std::clamp<int>(meta.at("ended_by"), 0, 2));
   if (r.hash != hash || meta.at("images") != image_hash(r)) {
     throw fail(ErrorKind::output, "its content isn't what its .json says");
   }

@@ -51,6 +51,8 @@ void expect_same(const ReferenceResult& a, const ReferenceResult& b) {
   EXPECT_EQ(a.half[1].pixels, b.half[1].pixels);
   EXPECT_EQ(a.mask, b.mask);
   EXPECT_EQ(a.noise_floor_smape, b.noise_floor_smape);
+  EXPECT_EQ(a.standard_error, b.standard_error);
+  EXPECT_EQ(a.ended_by, b.ended_by);
   EXPECT_EQ(a.samples, b.samples);
   EXPECT_EQ(a.batches, b.batches);
   EXPECT_EQ(a.photons, b.photons);
@@ -98,6 +100,8 @@ TEST_F(ReferenceCache, EveryParameterButThreadsIsPartOfTheKey) {
   EXPECT_TRUE(changed([](auto& p) { p.height = 25; }));
   EXPECT_TRUE(changed([](auto& p) { p.samples = 25; }));
   EXPECT_TRUE(changed([](auto& p) { p.batches = 6; }));
+  EXPECT_TRUE(changed([](auto& p) { p.floor = 3; }));
+  EXPECT_TRUE(changed([](auto& p) { p.shading_normals = ShadingNormals::camera; }));
   EXPECT_TRUE(changed([](auto& p) { p.photons_a_sample = 3; }));
   EXPECT_TRUE(changed([](auto& p) { p.seed = 3; }));
   EXPECT_TRUE(changed([](auto& p) { p.occlusion = false; }));

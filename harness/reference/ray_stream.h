@@ -36,7 +36,22 @@ class alignas(128) RayStream {
     return tracer_->occluded(a, b);
   }
 
+  // Of a packet; lanes that are off are no rays.
+  uint32_t occluded(const SegmentPacket& packet) {
+    for (int i = 0; i < SegmentPacket::width; ++i) rays_ += packet.end[i] >= 0;
+    if (log_) log_lanes(packet);
+    return tracer_->occluded(packet);
+  }
+
  private:
+  void log_lanes(const SegmentPacket& p) {
+    for (int i = 0; i < SegmentPacket::width; ++i) {
+      if (p.end[i] < 0) continue;
+      log_->push_back({{p.origin[0][i], p.origin[1][i], p.origin[2][i]},
+                       {p.direction[0][i], p.direction[1][i], p.direction[2][i]}, 0, p.end[i], true});
+    }
+  }
+
   const Tracer* tracer_;
   RayLog* log_;
   uint64_t rays_ = 0;

@@ -1,6 +1,7 @@
 #include "reference/reference.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -9,6 +10,7 @@
 #include "base/progress.h"
 #include "image/noise_floor.h"
 #include "reference/accumulator.h"
+#include "reference/noise.h"
 #include "reference/parallel.h"
 #include "reference/strategies.h"
 
@@ -16,9 +18,8 @@ namespace vsglbench {
 namespace {
 
 // Raise it whenever the same parameters would give another image.
-constexpr uint32_t kAlgorithmVersion = 1;
+constexpr uint32_t kAlgorithmVersion = 2;
 constexpr uint32_t kExploration = ~0u;  // the batch before the first, which only teaches the light guide
-constexpr uint32_t kLessons = 4;        // batches that teach it too
 constexpr uint32_t kPhotonChunk = 8192, kChunksARound = 64;
 
 using Clock = std::chrono::steady_clock;
@@ -43,14 +44,24 @@ void check_parameters(const ReferenceParameters& p) {
     throw fail(ErrorKind::config, "reference: {} photons a sample; give 0 (automatic) to 1024",
                p.photons_a_sample);
   }
+  if (!(p.floor >= 0 && p.floor < 200)) {
+    throw fail(ErrorKind::config, "reference: a noise floor of {} %; give 0 (none) to under 200", p.floor);
+  }
   if ((p.strategies & strategy_all) == 0 || p.strategies > strategy_all) {
     throw fail(ErrorKind::config, "reference: strategies {}; give a sum of 1, 2 and 4", p.strategies);
   }
 }
 
+// At least those asked for; more where the largest pool would serve too many samples.
+uint32_t planned_batches(const ReferenceParameters& p) {
+  const double most = Strategies::connections_a_point * std::exp2(2 * Strategies::most_pool_bits);
+  const double needed = double(p.width) * p.height * p.samples / most;
+  return std::max(p.batches, 2 * static_cast<uint32_t>(std::ceil(needed / 2)));
+}
+
 // Samples of one batch; strategies that are off take none, and so weigh nothing.
-SampleCounts sample_counts(const ReferenceParameters& p, double photons_a_sample) {
-  const uint32_t a_pixel = (p.samples + p.batches - 1) / p.batches;
+SampleCounts sample_counts(const ReferenceParameters& p, uint32_t batches, double photons_a_sample) {
+  const uint32_t a_pixel = (p.samples + batches - 1) / batches;
   const double photons = std::ceil(photons_a_sample * a_pixel * p.width * p.height);
   SampleCounts counts;
   if (p.strategies & strategy_light) counts.light = a_pixel;
@@ -73,11 +84,14 @@ class Run {
   void gather(uint32_t batch, bool teach);
   void emit(uint32_t batch);
   void accumulate(uint32_t batch);
+  std::optional<ReferenceEnd> ended(uint32_t batches);
+  double noise_floor(uint32_t batches) const;
   void check_finite(const Image& mean) const;
-  ReferenceResult result(uint32_t batches) const;
+  ReferenceResult result(uint32_t batches, ReferenceEnd ended_by) const;
 
   const Tracer& tracer_;
   const ReferenceParameters& p_;
+  uint32_t batches_;  // planned; more when they miss the floor
   const Clock::time_point start_ = Clock::now();
   SampleCounts counts_;
   ImagePlane camera_;
@@ -87,27 +101,29 @@ class Run {
   std::vector<glm::vec3> estimate_;         // of this batch
   std::vector<std::vector<Splat>> splats_;  // of this round, one a chunk
   BatchAccumulator sums_;
+  std::vector<double> means_;  // of the image, one a batch
+  std::vector<uint8_t> mask_;
   Progress progress_;
 };
 
 Run::Run(const Tracer& tracer, const ReferenceParameters& parameters, std::vector<RayLog>* logs)
     : tracer_(tracer),
       p_(parameters),
+      batches_(planned_batches(parameters)),
       camera_(camera_view(tracer.scene().camera, parameters.width, parameters.height)),
       footprints_(size_t(parameters.width) * parameters.height),
-      strategies_(tracer, camera_, parameters.width, parameters.height, parameters.seed, parameters.occlusion,
-                  footprints_),
+      strategies_(tracer, camera_, parameters.width, parameters.height, parameters, footprints_),
       estimate_(footprints_.size()),
       splats_(kChunksARound),
       sums_(parameters.width, parameters.height),
-      progress_("reference of " + tracer.scene().name, uint64_t(parameters.batches) + 1) {
+      progress_("reference of " + tracer.scene().name, uint64_t(batches_) + 1) {
   const unsigned threads = thread_count(parameters.threads);
   if (logs) logs->assign(threads, {});
   for (unsigned t = 0; t < threads; ++t) streams_.emplace_back(tracer, logs ? &(*logs)[t] : nullptr);
 }
 
 void Run::trace_pool(uint32_t batch) {
-  parallel_for(Strategies::pool_size, p_.threads, [&](uint64_t row, unsigned thread) {
+  parallel_for(strategies_.pool_size(), p_.threads, [&](uint64_t row, unsigned thread) {
     strategies_.trace_pool_row(static_cast<uint32_t>(row), batch, streams_[thread]);
   });
 }
@@ -119,7 +135,7 @@ void Run::choose_counts() {
     throw fail(ErrorKind::case_failed, "{}: the light sees no surface; check its position and direction",
                tracer_.scene().name);
   }
-  counts_ = sample_counts(p_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp / 4);
+  counts_ = sample_counts(p_, batches_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp / 4);
   strategies_.set_counts(counts_);
 }
 
@@ -131,7 +147,10 @@ void Run::trace_footprints() {
       footprint.tile = strategies_.guide().tile(x, uint32_t(y));
     }
   });
-  if (std::any_of(footprints_.begin(), footprints_.end(), [](const Footprint& f) { return f.valid; })) return;
+  mask_.resize(footprints_.size());
+  std::transform(footprints_.begin(), footprints_.end(), mask_.begin(),
+                 [](const Footprint& f) { return f.valid; });
+  if (std::any_of(mask_.begin(), mask_.end(), [](uint8_t seen) { return seen; })) return;
   throw fail(ErrorKind::case_failed, "{}: the camera sees no surface; check its position and direction",
              tracer_.scene().name);
 }
@@ -170,6 +189,24 @@ void Run::accumulate(uint32_t batch) {
   parallel_for(p_.height, p_.threads, [&](uint64_t y, unsigned) {
     for (size_t i = y * p_.width; i < (y + 1) * p_.width; ++i) sums_.add(i, batch, estimate_[i]);
   });
+  means_.push_back(mean_of_batch(estimate_, footprints_));
+}
+
+double Run::noise_floor(uint32_t batches) const {
+  return noise_floor_of(sums_.half(0, batches), sums_.half(1, batches), sums_.mean(batches), mask_).smape;
+}
+
+// Looks at the floor when the planned batches are done, then after every eighth more: a look at each would
+// prefer the lucky ones.
+std::optional<ReferenceEnd> Run::ended(uint32_t batches) {
+  if (batches == batches_) {
+    const double samples = double(batches) * std::max(counts_.light, counts_.receiver);
+    if (p_.floor == 0 || samples >= 0x1p24) return ReferenceEnd::samples;
+    if (noise_floor(batches) <= p_.floor) return ReferenceEnd::floor;
+    batches_ += std::max(2u, batches / 16 * 2);
+  }
+  const bool late = p_.time_limit > 0 && batches % 2 == 0 && seconds_since(start_) > p_.time_limit;
+  return late ? std::optional(ReferenceEnd::time_limit) : std::nullopt;
 }
 
 // A NaN or Inf is never averaged away.
@@ -181,17 +218,17 @@ void Run::check_finite(const Image& mean) const {
              tracer_.scene().name, health.nan, health.inf, health.first_bad->x, health.first_bad->y);
 }
 
-ReferenceResult Run::result(uint32_t batches) const {
+ReferenceResult Run::result(uint32_t batches, ReferenceEnd ended_by) const {
   ReferenceResult r;
   r.mean = sums_.mean(batches);
   r.variance = sums_.variance_of_mean(batches);
   r.half[0] = sums_.half(0, batches);
   r.half[1] = sums_.half(1, batches);
   check_finite(r.mean);
-  r.mask.resize(footprints_.size());
-  std::transform(footprints_.begin(), footprints_.end(), r.mask.begin(),
-                 [](const Footprint& f) { return f.valid; });
-  r.noise_floor_smape = noise_floor_of(r.half[0], r.half[1], r.mean, r.mask).smape;
+  r.mask = mask_;
+  r.noise_floor_smape = noise_floor(batches);
+  r.standard_error = relative_standard_error(means_);
+  r.ended_by = ended_by;
   r.batches = batches;
   r.samples = batches * std::max(counts_.light, counts_.receiver);
   r.photons = uint64_t(batches) * counts_.photons;
@@ -206,28 +243,46 @@ ReferenceResult Run::result(uint32_t batches) const {
 ReferenceResult Run::compute() {
   choose_counts();
   trace_footprints();
+  trace_pool(kExploration);
   gather(kExploration, true);
   learn_guide();
   uint32_t batch = 0;
-  while (batch < p_.batches) {
+  std::optional<ReferenceEnd> end;
+  while (!end) {
     trace_pool(batch);
-    gather(batch, batch < kLessons);
+    gather(batch, true);
     emit(batch);
     accumulate(batch);
     ++batch;
-    if (batch == 1 || batch == kLessons) learn_guide();
-    if (p_.time_limit > 0 && batch % 2 == 0 && seconds_since(start_) > p_.time_limit) break;
+    if (std::has_single_bit(batch)) learn_guide();  // after 1, 2, 4, 8 ... of them
+    end = ended(batch);
   }
-  return result(batch);
+  return result(batch, *end);
 }
 
 }  // namespace
 
+std::string_view name(ReferenceEnd end) {
+  constexpr std::string_view names[] = {"samples", "floor", "time_limit"};
+  return names[static_cast<size_t>(end)];
+}
+
+std::string_view name(ShadingNormals normals) {
+  return normals == ShadingNormals::light ? "light" : "camera";
+}
+
+std::optional<ShadingNormals> shading_normals_named(std::string_view text) {
+  for (const ShadingNormals normals : {ShadingNormals::light, ShadingNormals::camera}) {
+    if (name(normals) == text) return normals;
+  }
+  return std::nullopt;
+}
+
 std::string reference_hash(const Scene& scene, const ReferenceParameters& p) {
   Hasher hasher;
   hasher.text("vsglbench.reference").value(kAlgorithmVersion).text(scene.hash);
-  hasher.value(p.width).value(p.height).value(p.samples).value(p.batches).value(p.photons_a_sample);
-  hasher.value(p.seed).value(p.occlusion).value(p.strategies).value(p.time_limit);
+  hasher.value(p.width).value(p.height).value(p.samples).value(p.batches).value(p.photons_a_sample).value(p.floor);
+  hasher.value(p.seed).value(p.occlusion).value(p.strategies).value(p.shading_normals).value(p.time_limit);
   return hasher.hex();
 }
 

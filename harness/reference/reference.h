@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/image.h"
@@ -22,20 +24,39 @@ enum Strategy : uint32_t {
   strategy_all = 7,
 };
 
+// Which adjoint of the BRDF a shading normal n beside the face's n_g makes at x1, where cosines with the light
+// and with x2 both stand (Veach 1997 §5.3). Where n = n_g they are one.
+enum class ShadingNormals {
+  light,   // (n_g.light)(n.x2): light traced from the light, as every virtual-light method has it
+  camera,  // (n.light)(n_g.x2): paths traced from the eye
+};
+
 struct ReferenceParameters {
   uint32_t width = 480, height = 272;
   uint32_t samples = 256;  // a pixel, of `light` and, at sharp BRDFs, of `receiver`; up to whole batches
-  uint32_t batches = 16;   // independent estimates of the whole image; even, at least 2
+  // Independent estimates of the whole image; even, at least 2. More are made of an image and samples so many
+  // that one batch's pool of x1 would be too small for it (33 M samples a batch).
+  uint32_t batches = 16;
+  // Percent; > 0: more batches of the same size follow until noise_floor_smape is no more.
+  double floor = 0;
   // Photons of `emitter` per pixel and sample; 0: 1/32, and a quarter of the share of the light's flux
   // that sharp lobes reflect, which no other strategy follows.
   float photons_a_sample = 0;
   uint64_t seed = 1;
   bool occlusion = true;  // false: nothing lies between x1 and x2 (light -> x1 and x2 -> eye stay tested)
   uint32_t strategies = strategy_all;
+  ShadingNormals shading_normals = ShadingNormals::light;
   // Seconds; > 0 may end the work after any even number of batches: the result depends on the machine then.
+  // It is what ends the search for a `floor` that lies out of reach.
   double time_limit = 0;
   unsigned threads = 0;  // 0: all; changes no bit of the result
 };
+
+// What ended the work: the samples asked for were taken, `floor` was reached, or time was up.
+enum class ReferenceEnd { samples, floor, time_limit };
+std::string_view name(ReferenceEnd end);            // "samples", "floor", "time_limit"
+std::string_view name(ShadingNormals normals);      // "light", "camera"
+std::optional<ShadingNormals> shading_normals_named(std::string_view name);
 
 struct ReferenceResult {
   Image mean;                    // W/sr/m^2, indirect radiance at the pixel centres towards the eye
@@ -43,6 +64,10 @@ struct ReferenceResult {
   Image half[2];                 // means of the even and of the odd batches
   std::vector<uint8_t> mask;     // 1 where the camera sees a surface
   double noise_floor_smape = 0;  // noise_floor_of() the halves over the mask, `smape-0-200`
+  // Of the mean over the mask's pixels and channels, relative to it, from the scatter of the batches' means.
+  // The pixels share their x1, so that `variance` alone doesn't tell it.
+  double standard_error = 0;
+  ReferenceEnd ended_by = ReferenceEnd::samples;
   uint32_t samples = 0;          // a pixel, done
   uint32_t batches = 0;          // done
   uint64_t photons = 0, rays = 0;

@@ -24,46 +24,74 @@ ReferenceParameters small(uint32_t samples, uint32_t strategies = strategy_all) 
 
 // How two estimates of one image differ, in units of their own standard errors.
 struct Agreement {
-  double mean_z = 0, std_z = 0;  // over blocks of 4x4 pixels
+  double mean_z = 0, std_z = 0;  // over blocks of 8x8 pixels
   double image_z = 0;            // of the image means
   double relative = 0;           // difference of the image means
   double error = 0;              // its standard error
 };
 
-// Green stands for all channels, which share their samples. Blocks, because a pixel's estimate by one
-// strategy alone is too skewed for its z to be near normal.
-Agreement compare(const ReferenceResult& a, const ReferenceResult& b) {
+// Independent runs with seeds of their own. Pixels of a run share their x1, so only runs tell how a sum over
+// pixels scatters.
+using Runs = std::vector<ReferenceResult>;
+constexpr int kRuns = 8;
+
+Runs run(const Tracer& tracer, ReferenceParameters p) {
+  p.samples /= kRuns;
+  p.batches = 4;
+  p.seed *= kRuns;
+  Runs runs;
+  for (int i = 0; i < kRuns; ++i, ++p.seed) runs.push_back(compute_reference(tracer, p));
+  return runs;
+}
+
+struct Estimate {
+  double mean = 0, variance = 0;  // of the mean
+};
+
+// Green, which stands for all channels since they share their samples, summed over a rectangle.
+Estimate sum_over(const Runs& runs, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height) {
+  Estimate e;
+  double squares = 0;
+  for (const ReferenceResult& r : runs) {
+    double sum = 0;
+    for (uint32_t i = 0; i < width * height; ++i) sum += r.mean.at(x0 + i % width, y0 + i / width).y;
+    e.mean += sum / kRuns, squares += sum * sum;
+  }
+  e.variance = std::max(0.0, squares - kRuns * e.mean * e.mean) / (kRuns * (kRuns - 1));
+  return e;
+}
+
+// Blocks of 8x8, which share no x1 but the pool's, and because a pixel's estimate by one strategy alone is too
+// skewed for its z to be near normal.
+Agreement compare(const Runs& a, const Runs& b) {
   Agreement g;
-  double n = 0, squares = 0, sum = 0, variance = 0, difference = 0;
-  for (uint32_t y = 0; y + 4 <= a.mean.height; y += 4) {
-    for (uint32_t x = 0; x + 4 <= a.mean.width; x += 4) {
-      double d = 0, v = 0;
-      for (uint32_t i = 0; i < 16; ++i) {
-        const uint32_t px = x + i % 4, py = y + i / 4;
-        d += a.mean.at(px, py).y - b.mean.at(px, py).y;
-        v += a.variance.at(px, py).y + b.variance.at(px, py).y;
-        sum += b.mean.at(px, py).y;
-      }
-      difference += d, variance += v;
+  double n = 0, squares = 0;
+  const uint32_t width = a[0].mean.width, height = a[0].mean.height;
+  for (uint32_t y = 0; y + 8 <= height; y += 8) {
+    for (uint32_t x = 0; x + 8 <= width; x += 8) {
+      const Estimate ea = sum_over(a, x, y, 8, 8), eb = sum_over(b, x, y, 8, 8);
+      const double d = ea.mean - eb.mean, v = ea.variance + eb.variance;
       if (!(v > 0)) continue;
       g.mean_z += d / std::sqrt(v), squares += d * d / v, n += 1;
     }
   }
   g.mean_z /= n;
   g.std_z = std::sqrt(squares / n - g.mean_z * g.mean_z);
+  const Estimate ea = sum_over(a, 0, 0, width, height), eb = sum_over(b, 0, 0, width, height);
+  const double difference = ea.mean - eb.mean, variance = ea.variance + eb.variance;
   g.image_z = difference / std::sqrt(variance);
-  g.relative = difference / sum;
-  g.error = std::sqrt(variance) / sum;
+  g.relative = difference / eb.mean;
+  g.error = std::sqrt(variance) / eb.mean;
   return g;
 }
 
-void expect_agreement(const ReferenceResult& a, const ReferenceResult& b, const std::string& what) {
+void expect_agreement(const Runs& a, const Runs& b, const std::string& what) {
   const Agreement g = compare(a, b);
-  // 192 blocks: three standard errors of a normal z's mean are 0.22, of its deviation 0.15; but `light` alone
-  // has tails (1/d^2 in corners), which widen z.
-  EXPECT_LT(std::abs(g.mean_z), 0.25) << what;
-  EXPECT_NEAR(g.std_z, 1, 0.35) << what;
-  EXPECT_LT(std::abs(g.image_z), 3) << what << ": images differ by " << 100 * g.relative << " %";
+  // Student's z of twice eight runs deviates by 1.08. 48 blocks: three standard errors of its mean are 0.47, of
+  // its deviation 0.33; and 3.64 has the odds of three standard errors of a normal one.
+  EXPECT_LT(std::abs(g.mean_z), 0.47) << what;
+  EXPECT_NEAR(g.std_z, 1.08, 0.33) << what;
+  EXPECT_LT(std::abs(g.image_z), 3.64) << what << ": images differ by " << 100 * g.relative << " %";
   EXPECT_LT(g.error, 0.015) << what << ": too noisy to tell 5 % apart";
 }
 
@@ -73,12 +101,12 @@ void expect_strategies_agree(const Scene& scene, bool occlusion, uint32_t sample
                                                   {strategy_receiver, "receiver"},
                                                   {strategy_emitter, "emitter"},
                                                   {strategy_all, "all"}};
-  std::vector<ReferenceResult> results;
+  std::vector<Runs> results;
   for (const auto& [strategies, name] : one) {
     ReferenceParameters p = small(samples, strategies);
     p.occlusion = occlusion;
     p.seed = 100 + strategies;  // independent images
-    results.push_back(compute_reference(tracer, p));
+    results.push_back(run(tracer, p));
   }
   for (size_t i = 0; i < 4; ++i) {
     for (size_t j = i + 1; j < 4; ++j)
@@ -121,9 +149,9 @@ TEST(Reference, OcclusionDarkensARoomWithASlab) {
   ReferenceParameters p = small(128);
   const Scene scene = test::slab_box();
   const Tracer tracer(scene);
-  const ReferenceResult with = compute_reference(tracer, p);
+  const Runs with = run(tracer, p);
   p.occlusion = false;
-  const Agreement g = compare(with, compute_reference(tracer, p));
+  const Agreement g = compare(with, run(tracer, p));
   EXPECT_LT(g.image_z, -10);
   EXPECT_LT(g.relative, -0.02);
 }
@@ -186,6 +214,25 @@ TEST(Reference, StrategiesAgreeUnderASun) {
   scene.light.type = Light::Type::directional;
   scene.light.half_extent = {0.25f, 0.2f};
   expect_strategies_agree(scene, true, 2048);
+}
+
+// A room a million times smaller, lit by 1e-12 of the intensity, looks the same.
+TEST(Reference, AMicrometreRoomIsARoom) {
+  const auto room = [](double unit) {
+    std::vector<test::Quad> quads = test::box_quads();
+    for (test::Quad& q : quads) q.corner *= unit, q.a *= unit, q.b *= unit;
+    Light light = test::spot(glm::vec3(0.5f, 0.95f, 0.5f) * float(unit), {0.5f, -1, -0.3f}, 0.9f);
+    light.power *= float(unit * unit);
+    return test::make_scene(
+        quads, {test::mirror(30, {0.9f, 0.7f, 0.5f}), test::lambert({0.6f, 0.1f, 0.1f}), Material()}, light,
+        test::camera_at(glm::vec3(0.3f, 0.5f, 0.95f) * float(unit), glm::vec3(0.5f, 0.4f, 0) * float(unit), 1));
+  };
+  const ReferenceParameters p = small(256);
+  const ReferenceResult metre = compute_reference(room(1), p), micrometre = compute_reference(room(1e-6), p);
+  double a = 0, b = 0;
+  for (size_t i = 0; i < metre.mask.size(); ++i) a += metre.mean.pixels[i].y, b += micrometre.mean.pixels[i].y;
+  EXPECT_GT(a, 0);
+  EXPECT_NEAR(b / a, 1, 0.01);
 }
 
 TEST(Reference, SaysWhatItCannotRender) {

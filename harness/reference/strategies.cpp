@@ -1,8 +1,8 @@
 #include "reference/strategies.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <utility>
 
 #include "image/image.h"
 #include "reference/random.h"
@@ -36,17 +36,18 @@ bool leaves(const Brdf& brdf, const glm::vec3& direction) {
 }  // namespace
 
 Strategies::Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t width, uint32_t height,
-                       uint64_t seed, bool occlusion, const std::vector<Footprint>& footprints)
+                       const ReferenceParameters& p, const std::vector<Footprint>& footprints)
     : tracer_(tracer),
       light_(light_view(tracer.scene().light)),
       camera_(camera),
       axis_flux_(flux_density(tracer.scene().light, {0.5f, 0.5f})),
       width_(width),
       height_(height),
-      seed_(seed),
-      occlusion_(occlusion),
+      seed_(p.seed),
+      occlusion_(p.occlusion),
+      shading_normals_(p.shading_normals),
       footprints_(footprints),
-      pool_(size_t(pool_size) * pool_size),
+      pool_(size_t(pool_size()) * pool_size()),
       guide_(width, height),
       photon_guide_(1, 1) {}
 
@@ -61,6 +62,9 @@ Strategies::Emitter Strategies::make_emitter(const Hit& hit, const glm::vec2& uv
   x1.density =
       light_.facing_density(-to_light, distance) * std::abs(glm::dot(surface.geometric_normal, to_light));
   x1.brdf = Brdf(surface, to_light);
+  if (shading_normals_ == ShadingNormals::camera) {
+    x1.flux *= glm::dot(surface.normal, to_light) / glm::dot(surface.geometric_normal, to_light);
+  }
   x1.cell = LightGuide::cell(uv);
   return x1;
 }
@@ -73,10 +77,10 @@ Strategies::Emitter Strategies::trace_emitter(const glm::vec2& uv, RayStream& ra
 }
 
 void Strategies::trace_pool_row(uint32_t row, uint32_t batch, RayStream& rays) {
-  for (uint32_t column = 0; column < pool_size; ++column) {
-    const uint32_t cell = row * pool_size + column;
+  for (uint32_t column = 0; column < pool_size(); ++column) {
+    const uint32_t cell = row * pool_size() + column;
     const glm::vec2 jitter(random4(seed_, Stream::pool, batch, cell));
-    pool_[cell] = trace_emitter((glm::vec2(column, row) + jitter) / float(pool_size), rays);
+    pool_[cell] = trace_emitter((glm::vec2(column, row) + jitter) / float(pool_size()), rays);
   }
 }
 
@@ -93,6 +97,13 @@ std::optional<double> Strategies::aim_photons() {
   return sharp / all;
 }
 
+void Strategies::set_counts(const SampleCounts& counts) {
+  counts_ = counts;
+  const double points = double(footprints_.size()) * counts.light / connections_a_point;
+  while (pool_bits_ < most_pool_bits && std::exp2(2 * pool_bits_) < points) ++pool_bits_;
+  pool_.resize(size_t(pool_size()) * pool_size());
+}
+
 glm::vec3 Strategies::contribution(const Emitter& x1, const Receiver& x2) const {
   const Brdf &brdf1 = x1.brdf, &brdf2 = x2.footprint->brdf;
   const glm::vec3 d = x1.position - x2.position;
@@ -105,26 +116,21 @@ glm::vec3 Strategies::contribution(const Emitter& x1, const Receiver& x2) const 
   const BrdfValue f1 = brdf1.evaluate(-to_x1);
   if (is_black(f1.f)) return glm::vec3(0);
 
-  // The balance heuristic's sum of n_i p_i, over k where all share it.
+  // The balance heuristic's sum of n_i p_i over k p_L.
   const float geometric1 = -glm::dot(brdf1.geometric_normal(), to_x1);
   const float geometric2 =
       x2.geometric_cosine >= 0 ? x2.geometric_cosine : glm::dot(brdf2.geometric_normal(), to_x1);
-  const float guide = guide_.density(x2.footprint->tile, x1.cell);
-  const float light = static_cast<float>(counts_.light) * x1.density * guide;
-  const float receiver = static_cast<float>(receiver_samples(*x2.footprint)) * f2.pdf * geometric1 * inverse2;
+  const float light = static_cast<float>(counts_.light) * guide_.density(x2.footprint->tile, x1.cell);
+  const float receiver =
+      static_cast<float>(receiver_samples(*x2.footprint)) * f2.pdf * geometric1 * inverse2 / x1.density;
   const float photons = static_cast<float>(counts_.photons) * photon_guide_.density(0, x1.cell);
-  const float emitter = photons * x1.density * f1.pdf * geometric2 * inverse2;
-  const float sum = x2.kernel * (light + receiver) + emitter;
+  const float emitter = photons * f1.pdf * geometric2 * inverse2 / x2.kernel;
+  const float sum = light + receiver + emitter;
   if (!(sum > 0)) return glm::vec3(0);
-  const float cosines = -glm::dot(brdf1.normal(), to_x1) * glm::dot(brdf2.normal(), to_x1);
-  return axis_flux_ * f1.f * f2.f * (x1.flux * x2.kernel * x1.density * cosines * inverse2 / sum);
-}
-
-glm::vec3 Strategies::from_light(const Footprint& x2, const Emitter& x1, RayStream& rays) const {
-  const glm::vec3 d = x2.position - x1.position;
-  if (!(x1.density > 0) || !leaves(x1.brdf, d) || !leaves(x2.brdf, -d)) return glm::vec3(0);
-  if (occlusion_ && rays.occluded(x2.ray_origin, x1.ray_origin)) return glm::vec3(0);
-  return contribution(x1, {&x2, x2.position, x2.kernel, -1});
+  const bool of_light = shading_normals_ == ShadingNormals::light;
+  const float cosine1 = of_light ? -glm::dot(brdf1.normal(), to_x1) : geometric1;
+  const float cosine2 = glm::dot(brdf2.normal(), to_x1);
+  return axis_flux_ * f1.f * f2.f * (x1.flux * cosine1 * cosine2 * inverse2 / sum);
 }
 
 glm::vec3 Strategies::connect_receiver(const Footprint& x2, const glm::vec3& direction, const Hit& hit,
@@ -151,34 +157,46 @@ glm::vec3 Strategies::from_receiver(const Footprint& x2, const glm::vec3& random
   return sum;
 }
 
-// A cell of the guide, then one of the pool's 2x2 in it.
+// A cell of the guide, then one of the pool's in it.
 const Strategies::Emitter& Strategies::choose(uint32_t tile, const glm::uvec3& bits) const {
-  static_assert(pool_size == 2 * LightGuide::cells);
+  const uint32_t inner = pool_bits_ - LightGuide::cell_bits;
   const glm::uvec2 cell = LightGuide::column_row(guide_.sample(tile, bits.x));
-  return pool_[(2 * cell.y + (bits.y >> 31)) * pool_size + 2 * cell.x + (bits.y >> 30 & 1)];
+  const glm::uvec2 place = glm::uvec2(bits.y, bits.z) >> (32 - inner);
+  return pool_[(((cell.y << inner) + place.y) << pool_bits_) + (cell.x << inner) + place.x];
 }
 
-glm::vec3 Strategies::gather_light(uint32_t pixel, uint32_t batch, bool teach, RayStream& rays) {
-  const Footprint& x2 = footprints_[pixel];
-  const Lattice lattice(counts_.light, glm::uvec3(random_bits(seed_, Stream::light, batch, pixel)));
-  thread_local std::vector<std::pair<uint32_t, float>> found;  // cell, luminance
-  found.clear();
-  glm::vec3 sum(0);
-  const Emitter* next = &choose(x2.tile, lattice.bits(0));
+// The lanes that x1 lights: facing it, with nothing between.
+uint32_t Strategies::connect_light(const ReceiverGroup& group, const Emitter& x1, RayStream& rays) const {
+  SegmentPacket packet;
+  const GroupTarget target = {x1.position, x1.ray_origin, x1.brdf.normal(), x1.brdf.geometric_normal()};
+  const uint32_t facing = aim(group, target, &packet);
+  return facing != 0 && occlusion_ ? facing & ~rays.occluded(packet) : facing;
+}
+
+void Strategies::gather_light(const ReceiverGroup& group, uint32_t tile, const glm::uvec3& shift, bool teach,
+                              RayStream& rays, glm::vec3* estimate) {
+  const Lattice lattice(counts_.light, shift);
+  Lesson lesson;
+  const Emitter* next = &choose(tile, lattice.bits(0));
   for (uint32_t i = 0; i < counts_.light; ++i) {
-    // The next x1 comes into the cache while this one's ray is traced.
+    // The next x1 comes into the cache while this one's rays are traced.
     const Emitter& x1 = *next;
-    next = &choose(x2.tile, lattice.bits(i + 1));
+    next = &choose(tile, lattice.bits(i + 1));
     __builtin_prefetch(next);
     __builtin_prefetch(&next->flux);
-    const glm::vec3 radiance = from_light(x2, x1, rays);
-    sum += radiance;
-    if (teach && !is_black(radiance)) found.emplace_back(x1.cell, luminance(radiance));
+    if (!(x1.density > 0)) continue;
+    for (uint32_t lit = connect_light(group, x1, rays); lit != 0; lit &= lit - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(lit));
+      const Footprint& x2 = footprints_[group.pixel[lane]];
+      const glm::vec3 radiance = contribution(x1, {&x2, x2.position, x2.kernel, -1});
+      estimate[group.pixel[lane]] += radiance;
+      if (!teach || is_black(radiance)) continue;
+      lesson.found.push_back({lane, x1.cell, luminance(radiance)});
+      lesson.total[lane] += luminance(radiance);
+    }
   }
   // Each pixel teaches the shares of its own light, so that dark pixels count too.
-  const float total = luminance(sum);
-  for (const auto& [cell, value] : found) guide_.teach(x2.tile, cell, value / total);
-  return sum;
+  for (const auto& f : lesson.found) guide_.teach(tile, f.cell, f.luminance / lesson.total[f.lane]);
 }
 
 glm::vec3 Strategies::gather_receiver(uint32_t pixel, uint32_t batch, RayStream& rays) const {
@@ -190,17 +208,32 @@ glm::vec3 Strategies::gather_receiver(uint32_t pixel, uint32_t batch, RayStream&
   return sum;
 }
 
+// `light` group by group, whose lattices interleave along the guide's order; `receiver` pixel by pixel.
+void Strategies::gather_block(uint32_t x0, uint32_t y0, uint32_t batch, bool teach, RayStream& rays,
+                              glm::vec3* estimate) {
+  const glm::uvec3 first(random_bits(seed_, Stream::light, batch, y0 * width_ + x0));
+  for (uint32_t g = 0; g < ReceiverGroup::groups; ++g) {
+    const ReceiverGroup group = make_receiver_group(footprints_, width_, height_, x0, y0, g);
+    if (group.lanes == 0 || counts_.light == 0) continue;
+    const glm::uvec3 shift = first + g * glm::uvec3((1u << 30) / counts_.light, 1u << 30, 1u << 30);
+    gather_light(group, guide_.tile(x0, y0), shift, teach, rays, estimate);
+  }
+  if (counts_.receiver == 0) return;
+  for (uint32_t y = y0; y < std::min(y0 + ReceiverGroup::block, height_); ++y) {
+    for (uint32_t x = x0; x < std::min(x0 + ReceiverGroup::block, width_); ++x) {
+      const uint32_t pixel = y * width_ + x;
+      if (footprints_[pixel].valid) estimate[pixel] += gather_receiver(pixel, batch, rays);
+    }
+  }
+}
+
 void Strategies::gather(uint32_t tile, uint32_t batch, bool teach, RayStream& rays, glm::vec3* estimate) {
   const uint32_t size = guide_.tile_size();
   const uint32_t x0 = tile % guide_.tiles_x() * size, y0 = tile / guide_.tiles_x() * size;
-  for (uint32_t y = y0; y < std::min(y0 + size, height_); ++y) {
-    for (uint32_t x = x0; x < std::min(x0 + size, width_); ++x) {
-      const uint32_t pixel = y * width_ + x;
-      estimate[pixel] = glm::vec3(0);
-      if (!footprints_[pixel].valid) continue;
-      if (counts_.light > 0) estimate[pixel] += gather_light(pixel, batch, teach, rays);
-      if (counts_.receiver > 0) estimate[pixel] += gather_receiver(pixel, batch, rays);
-    }
+  const uint32_t x1 = std::min(x0 + size, width_), y1 = std::min(y0 + size, height_);
+  for (uint32_t y = y0; y < y1; ++y) std::fill(estimate + y * width_ + x0, estimate + y * width_ + x1, glm::vec3(0));
+  for (uint32_t y = y0; y < y1; y += ReceiverGroup::block) {
+    for (uint32_t x = x0; x < x1; x += ReceiverGroup::block) gather_block(x, y, batch, teach, rays, estimate);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "reference/footprint.h"
 #include "reference/light_guide.h"
 #include "reference/ray_stream.h"
+#include "reference/receiver_group.h"
 #include "reference/reference.h"
 
 namespace vsglbench {
@@ -29,28 +30,35 @@ struct Splat {
 // Every sample, whatever strategy found it, contributes f/sum(n_i p_i): the balance heuristic (Veach 1997,
 // §9.2.2). With all densities over the product of the image plane of the light, mapped onto x1, and of area
 // at x2, k the inverse of the footprint's area, and p_L = d(u,v)/dA at x1:
-//   f    = k Phi p_L f1 cos1 f2 cos2 / d^2       Phi the flux density over (u,v), cos1, cos2 of shading
-//   normals light    p = k p_L g        g the tile's LightGuide density receiver p = k p_brdf(x2 -> x1)
-//   cos_g1 / d^2 emitter  p = p_L g p_brdf(x1 -> x2) cos_g2 / d^2   with the photons' own g
+//   f         k Phi p_L f1 cos1 f2 cos2 / d^2     Phi the flux density over (u,v), cos2 of the shading normal
+//   light     p = k p_L g                         g the tile's LightGuide density
+//   receiver  p = k p_brdf(x2 -> x1) cos_g1 / d^2
+//   emitter   p = p_L g p_brdf(x1 -> x2) cos_g2 / d^2   with the photons' own g
+// All are divided by k p_L before they are computed, so that a scene of a micrometre overflows nothing.
 // `light` and `receiver` are exact at the pixel's centre; `emitter` averages over the pixel's footprint.
-// cos1 is of x1's shading normal, as for a virtual point light of that normal: the power it sends differs
-// from what a bump map on real relief would send, in the same way for every method measured here.
+// cos1 is of x1's shading normal towards x2 (ShadingNormals::light), or of the geometric one, and Phi then
+// times (n.l)/(n_g.l), l towards the light (ShadingNormals::camera; Veach 1997 §5.3).
 class Strategies {
  public:
-  Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t width, uint32_t height, uint64_t seed,
-             bool occlusion, const std::vector<Footprint>& footprints);
+  Strategies(const Tracer& tracer, const ImagePlane& camera, uint32_t width, uint32_t height,
+             const ReferenceParameters& parameters, const std::vector<Footprint>& footprints);
 
-  // Row `row` of the pool of x1 that `light` draws from in this batch: pool_size^2 cells of the light's
-  // plane, each with one ray at a jittered place. The pool is small enough to stay in a core's cache.
-  static constexpr uint32_t pool_bits = 6, pool_size = 1u << pool_bits;
+  // Row `row` of the pool of x1 that `light` draws from in this batch: pool_size()^2 cells of the light's
+  // plane, each with one ray at a jittered place.
   void trace_pool_row(uint32_t row, uint32_t batch, RayStream& rays);
+  uint32_t pool_size() const { return 1u << pool_bits_; }
 
   // Aims photons at what the pool found of sharp lobes. Returns the share of photons, if spread evenly, that
   // would leave by one; nothing if no ray of the pool meets a surface.
   std::optional<double> aim_photons();
 
-  // Must be set before anything below.
-  void set_counts(const SampleCounts& counts) { counts_ = counts; }
+  // Must be set before anything below, and chooses the pool's size.
+  void set_counts(const SampleCounts& counts);
+
+  // Samples of `light` that a point of the pool serves at most, on average, so that its share of the noise of
+  // the image's mean stays small; and the pool's largest size, 2^10 x 2^10, 128 MiB.
+  static constexpr double connections_a_point = 32;
+  static constexpr uint32_t most_pool_bits = 10;
 
   LightGuide& guide() { return guide_; }
 
@@ -71,6 +79,15 @@ class Strategies {
     uint32_t cell = 0;        // of the LightGuide
     glm::vec3 ray_origin{0};  // `position`, moved off the surface towards the light
   };
+  // What a group of pixels found, to teach the guide with.
+  struct Lesson {
+    struct Found {
+      uint32_t lane, cell;
+      float luminance;
+    };
+    std::vector<Found> found;
+    float total[ReceiverGroup::width] = {};
+  };
   // x2: a point of a pixel's footprint.
   struct Receiver {
     const Footprint* footprint;
@@ -83,12 +100,14 @@ class Strategies {
     return x2.brdf.sharpness() > 0 ? counts_.receiver : (counts_.receiver + 3) / 4;
   }
   Emitter make_emitter(const Hit& hit, const glm::vec2& uv, const glm::vec3& to_light, float distance) const;
-  const Emitter& choose(uint32_t tile, const glm::uvec3& bits) const;
-  glm::vec3 gather_light(uint32_t pixel, uint32_t batch, bool teach, RayStream& rays);
+  void gather_block(uint32_t x, uint32_t y, uint32_t batch, bool teach, RayStream& rays, glm::vec3* estimate);
+  void gather_light(const ReceiverGroup& group, uint32_t tile, const glm::uvec3& shift, bool teach,
+                    RayStream& rays, glm::vec3* estimate);
   glm::vec3 gather_receiver(uint32_t pixel, uint32_t batch, RayStream& rays) const;
   Emitter trace_emitter(const glm::vec2& uv, RayStream& rays) const;
+  const Emitter& choose(uint32_t tile, const glm::uvec3& bits) const;
+  uint32_t connect_light(const ReceiverGroup& group, const Emitter& x1, RayStream& rays) const;
   glm::vec3 contribution(const Emitter& x1, const Receiver& x2) const;
-  glm::vec3 from_light(const Footprint& x2, const Emitter& x1, RayStream& rays) const;
   glm::vec3 from_receiver(const Footprint& x2, const glm::vec3& random, RayStream& rays) const;
   glm::vec3 connect_receiver(const Footprint& x2, const glm::vec3& direction, const Hit& hit,
                              RayStream& rays) const;
@@ -101,8 +120,10 @@ class Strategies {
   uint32_t width_, height_;
   uint64_t seed_;
   bool occlusion_;
+  ShadingNormals shading_normals_;
   SampleCounts counts_;
   const std::vector<Footprint>& footprints_;
+  uint32_t pool_bits_ = LightGuide::cell_bits + 1;
   std::vector<Emitter> pool_;
   LightGuide guide_;         // of `light`
   LightGuide photon_guide_;  // of `emitter`: one tile, whose flux x sharpness it follows

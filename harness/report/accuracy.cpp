@@ -77,6 +77,15 @@ std::optional<double> mean_p99(const std::vector<SeedResult>& seeds) {
   return sum / count;
 }
 
+// bias = X/R - 1, so that an error of R, relative to it, moves it by (1 + bias) times as much.
+void widen(MetricResult* bias, const ReferenceInfo& reference) {
+  if (!bias->value || reference.batches < 2) return;
+  const double t = student_t95(static_cast<int>(reference.batches) - 1);
+  const double of_reference = t * reference.standard_error * std::abs(1 + *bias->value);
+  const double half = std::hypot(bias->ci95 ? bias->ci95->width() / 2 : 0, of_reference);
+  bias->ci95 = Interval{*bias->value - half, *bias->value + half};
+}
+
 // Next to no light: a mean that is nobody's to divide by.
 void undefine_relative(double light_ratio, Accuracy* a) {
   for (MetricResult* m : {&a->rrmse, &a->mrse, &a->bias, &a->smape_lit, &a->flip}) {
@@ -102,6 +111,7 @@ Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const Referen
   a.rrmse = over_seeds(Metric::rrmse, seeds);
   a.mrse = over_seeds(Metric::mrse, seeds);
   a.bias = over_seeds(Metric::bias, seeds);
+  widen(&a.bias, reference);
   a.smape_lit = over_seeds(Metric::smape_lit, seeds);
   a.flip = flip_over_seeds(seeds);
   a.flip_p99 = mean_p99(seeds);

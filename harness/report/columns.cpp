@@ -50,6 +50,16 @@ Column error_column(const char* name, const char* head, MetricResult Accuracy::*
 
 std::optional<double> unknown_floor(const ReferenceInfo&) { return std::nullopt; }
 
+// Σ light power / Σ texel power, mean over seeds.
+Column flux_column() {
+  Column column{"flux", "flux", {}, {}, {}};
+  column.number = [](const CaseResult& c, const CaseResult&) {
+    return c.generate && c.generate->flux ? fmt::format("{:.3f}", c.generate->flux->value) : std::string();
+  };
+  column.cell = column.number;
+  return column;
+}
+
 // --- times ---
 
 std::string ms(double value) {
@@ -115,6 +125,7 @@ const std::vector<Column>& frame_columns() {
       error_column("flip", "flip", &Accuracy::flip, 1, "{:.4f}",
                    [](const ReferenceInfo& r) { return r.noise_floor_flip; }),
       error_column("bias", "bias %", &Accuracy::bias, 100, "{:+.2f}", unknown_floor),
+      flux_column(),
       time_column("generate", "generate ms"),
       time_column("method", "method ms [95 %]", true),
       time_column("visibility", "visibility ms (host)"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <stdexcept>
 
@@ -55,10 +56,6 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
   return out;
 }
 
-FluxResult flux_over_seeds(const std::vector<double>& ratios) {
-  const MeanEstimate estimate = mean_ci95(ratios);
-  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-  return {estimate.mean, estimate.known ? std::optional(estimate.ci95) : std::nullopt, *least, *most};
 }
 
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,

@@ -136,6 +136,9 @@ struct ReferenceInfo {
   // reaches what the camera sees, and relative metrics are undefined.
   std::optional<double> light_ratio;
   std::optional<double> black_share;  // of the pixels, 0 … 1, that it leaves exactly black
+  uint64_t batches = 0;              // independent estimates; 0: not known
+  double standard_error = 0;         // of its mean over pixels and channels, relative to it
+  std::string ended_by = "samples";  // or "floor", "time_limit"
 };
 inline constexpr double kNearlyBlack = 1e-6;
 
@@ -253,8 +256,9 @@ struct Report {
 
 HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
 
-// Means and intervals over seeds; a metric that any seed lacks is undefined, but for flip, which may be
-// measured for the first seeds alone (constant "seeds"). Throws Error(case_failed) for no seeds.
+// Means and intervals over seeds; that of bias is widened in quadrature by the reference's own standard error,
+// and is the reference's alone for a single seed; a metric that any seed lacks is undefined. Throws Error(case_failed) for no
+// seeds.
 Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference);
 
 // Frame by frame, the sum of the passes whose dotted name starts with one of `prefixes` ("generate." or a

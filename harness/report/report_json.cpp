@@ -146,6 +146,9 @@ void fields(auto& a, Is<ReferenceInfo> auto& v) {
   a("noise_floor_flip", v.noise_floor_flip);
   a("light_ratio", v.light_ratio);
   a("black_share", v.black_share);
+  a("batches", v.batches);
+  a("standard_error", v.standard_error);
+  a("ended_by", v.ended_by);
 }
 
 void fields(auto& a, Is<Accuracy> auto& v) {

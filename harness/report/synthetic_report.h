@@ -41,8 +41,8 @@ inline CaseResult synthetic_case(const std::string& id) {
          {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75, 0.2 + 0.01 * d, 0.5},
          0.9});
   }
-  c.accuracy =
-      accuracy_over_seeds(c.seeds, {"0123abcd", 1024, 0.5, 0.001, 0.4, 0.01, 0.002, 0.03, 0.25, 0.125});
+  ReferenceInfo reference{"0123abcd", 1024, 0.5, 0.001, 0.4, 0.01, 0.002, 0.03, 0.25, 0.125, 16, 0.002, "floor"};
+  c.accuracy = accuracy_over_seeds(c.seeds, reference);
   c.accuracy->quantiles = ErrorQuantiles{5, 80, 150};
   c.temporal = Temporal{{0.1, 0.2, 3, {0.1, 0.1, 0.2}}, {0.05, 0.1, 1, {0.05, 0.1}}};
   c.health = HealthReport{0, 0, 3, std::nullopt};

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
+#include "base/percent.h"
 #include "run/preset.h"
 #include "run/scene_pdfs.h"
 
@@ -104,6 +105,18 @@ void read_reference(const JsonDocument& doc, Config* config) {
   r.samples = reference.value("samples", r.samples);
   r.batches = reference.value("batches", r.batches);
   r.seed = reference.value("seed", r.seed);
+  r.time_limit_s = reference.value("time_limit_s", r.time_limit_s);
+  r.shading_normals = *shading_normals_named(reference.value("shading_normals", "light"));
+  if (reference.contains("floor")) {
+    const std::string text = reference["floor"];
+    r.floor = parse_percent(text).value_or(0);
+    if (!(r.floor > 0 && r.floor < 200)) {
+      throw doc.error("/reference/floor",
+                      fmt::format("'{}' is no noise floor; give percent of SMAPE, such as \"2%\"", text));
+    }
+  } else if (reference.contains("time_limit_s")) {
+    throw doc.error("/reference/time_limit_s", "only ends the search for a `floor`; give one");
+  }
   if (r.batches % 2 != 0) {
     throw doc.error("/reference/batches",
                     fmt::format("{} must be even: its two halves are compared", r.batches));
@@ -143,7 +156,12 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
     out["seeds"] = config.seeds;
     out["reference"] = {{"samples", config.reference.samples},
                         {"batches", config.reference.batches},
-                        {"seed", config.reference.seed}};
+                        {"seed", config.reference.seed},
+                        {"shading_normals", std::string(name(config.reference.shading_normals))}};
+    if (config.reference.floor > 0) {
+      out["reference"]["floor"] = fmt::format("{}%", config.reference.floor);
+      out["reference"]["time_limit_s"] = config.reference.time_limit_s;
+    }
   }
   if (generation) out["pdfs_made_by"] = ScenePdfs::kMaker;
   out["time_limit_s"] = config.time_limit_s;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "measure/stopping.h"
+#include "reference/reference.h"
 #include "report/report.h"
 #include "run/sweep.h"
 
@@ -14,6 +15,9 @@ namespace vsglbench {
 struct ReferenceSettings {
   uint32_t samples = 256, batches = 16;
   uint64_t seed = 1;
+  double floor = 0;           // percent; 0: none
+  double time_limit_s = 600;  // of the search for `floor`; without one, none
+  ShadingNormals shading_normals = ShadingNormals::light;
 };
 
 struct Config {

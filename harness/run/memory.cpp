@@ -70,7 +70,8 @@ uint64_t available_memory() {
 
 MemoryNeed reference_memory(uint32_t width, uint32_t height) {
   constexpr uint64_t kSums = 9 * sizeof(double), kImages = 5 * sizeof(glm::vec3);
-  return {pixels_of(width, height) * (sizeof(Footprint) + kSums + kImages), 0};
+  constexpr uint64_t kPool = 128 << 20;  // at most
+  return {pixels_of(width, height) * (sizeof(Footprint) + kSums + kImages) + kPool, 0};
 }
 
 uint64_t kept_memory(const Case& c) {

@@ -52,11 +52,20 @@ ReferenceInfo describe(const Scene& scene, const ReferenceResult& r) {
   info.noise_floor_rrmse = floor.rrmse;
   info.noise_floor_mrse = floor.mrse;
   info.noise_floor_flip = flip_floor_of(r.half[0], r.half[1], r.mean, r.mask);
+  info.batches = r.batches;
+  info.standard_error = r.standard_error;
+  info.ended_by = name(r.ended_by);
   describe_light(scene, r, &info);
   return info;
 }
 
 }  // namespace
+
+std::string end_of_search(const ReferenceResult& result, const ReferenceParameters& p) {
+  if (p.floor == 0) return "";
+  return fmt::format(", {} {} %", result.ended_by == ReferenceEnd::floor ? "reached" : "ended before", p.floor) +
+         (result.ended_by == ReferenceEnd::time_limit ? fmt::format(" by the limit of {} s", p.time_limit) : "");
+}
 
 const ReferenceResult& References::get(const Case& c) { return *slot(c).result; }
 const ReferenceInfo& References::info(const Case& c) { return *slot(c).info; }
@@ -86,6 +95,9 @@ ReferenceResult References::obtain(const Case& c, bool occlusion) {
   p.samples = config_.reference.samples;
   p.batches = config_.reference.batches;
   p.seed = config_.reference.seed;
+  p.shading_normals = config_.reference.shading_normals;
+  p.floor = config_.reference.floor;
+  if (p.floor > 0) p.time_limit = config_.reference.time_limit_s;
   p.occlusion = occlusion;
   const Stopwatch watch;
   bool cached = false;
@@ -94,9 +106,10 @@ ReferenceResult References::obtain(const Case& c, bool occlusion) {
                   [](const glm::vec3& v) { return v == glm::vec3(0); })) {
     throw fail(ErrorKind::case_failed, "no indirect light reaches the view: the reference is black");
   }
-  log_info("{}: reference{} of {} samples {} ({}), noise floor {:.2f} % SMAPE", scene_.name,
-           occlusion ? "" : " without occlusion", result.samples, cached ? "from the cache" : "computed",
-           format_duration(watch.seconds()), result.noise_floor_smape);
+  log_info("{}: reference{} of {} samples {} ({}), noise floor {:.2f} % SMAPE, its mean known to {:.2f} %{}",
+           scene_.name, occlusion ? "" : " without occlusion", result.samples,
+           cached ? "from the cache" : "computed", format_duration(watch.seconds()), result.noise_floor_smape,
+           100 * result.standard_error, end_of_search(result, p));
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <tuple>
 
 #include "reference/reference.h"
@@ -11,6 +12,9 @@
 #include "run/config.h"
 
 namespace vsglbench {
+
+// ", reached 2 %" or ", ended before 2 % by the limit of 600 s"; nothing where no floor was asked for.
+std::string end_of_search(const ReferenceResult& result, const ReferenceParameters& parameters);
 
 // By frame size and occlusion: `none` is compared without occlusion between the bounces, all else with it.
 class References {
