@@ -79,9 +79,9 @@ std::optional<double> mean_p99(const std::vector<SeedResult>& seeds) {
 
 // bias = X/R - 1, so that an error of R, relative to it, moves it by (1 + bias) times as much.
 void widen(MetricResult* bias, const ReferenceInfo& reference) {
-  if (!bias->value || reference.batches < 2) return;
-  const double t = student_t95(static_cast<int>(reference.batches) - 1);
-  const double of_reference = t * reference.standard_error * std::abs(1 + *bias->value);
+  if (!bias->value || !reference.standard_error || reference.batches.value_or(0) < 2) return;
+  const double t = student_t95(static_cast<int>(*reference.batches) - 1);
+  const double of_reference = t * *reference.standard_error * std::abs(1 + *bias->value);
   const double half = std::hypot(bias->ci95 ? bias->ci95->width() / 2 : 0, of_reference);
   bias->ci95 = Interval{*bias->value - half, *bias->value + half};
 }

@@ -136,9 +136,9 @@ struct ReferenceInfo {
   // reaches what the camera sees, and relative metrics are undefined.
   std::optional<double> light_ratio;
   std::optional<double> black_share;  // of the pixels, 0 … 1, that it leaves exactly black
-  uint64_t batches = 0;              // independent estimates; 0: not known
-  double standard_error = 0;         // of its mean over pixels and channels, relative to it
-  std::string ended_by = "samples";  // or "floor", "time_limit"
+  std::optional<uint64_t> batches;       // independent estimates
+  std::optional<double> standard_error;  // of its mean over pixels and channels, relative to it
+  std::optional<std::string> ended_by;   // "samples", "floor", "time_limit"
 };
 inline constexpr double kNearlyBlack = 1e-6;
 

@@ -80,6 +80,9 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
                           "accuracy/reference/noise_floor_flip",
                           "accuracy/reference/light_ratio",
                           "accuracy/reference/black_share",
+                          "accuracy/reference/batches",
+                          "accuracy/reference/standard_error",
+                          "accuracy/reference/ended_by",
                           "temporal"}) {
     expected.push_back(std::string("/cases/0/") + key);
   }

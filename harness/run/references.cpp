@@ -54,7 +54,7 @@ ReferenceInfo describe(const Scene& scene, const ReferenceResult& r) {
   info.noise_floor_flip = flip_floor_of(r.half[0], r.half[1], r.mean, r.mask);
   info.batches = r.batches;
   info.standard_error = r.standard_error;
-  info.ended_by = name(r.ended_by);
+  info.ended_by = std::string(name(r.ended_by));
   describe_light(scene, r, &info);
   return info;
 }
