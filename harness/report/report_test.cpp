@@ -175,3 +175,22 @@ TEST(Report, TheClockReadsUtc) {
   EXPECT_EQ(now.back(), 'Z');
   EXPECT_GE(now.substr(0, 4), "2024");
 }
+
+// bias = -0.5 of a reference known to 2 % from 2 batches: Student's t of one degree of freedom is 12.706.
+TEST(ReportAccuracy, TheIntervalOfBiasHoldsTheReferencesOwnError) {
+  ReferenceInfo reference{"0123abcd", 64, 0.5, std::nullopt};
+  const Errors errors{12, 0.02, 0.1, 0.3, -0.5, 1000};
+  EXPECT_FALSE(accuracy_over_seeds({{0, errors}}, reference).bias.ci95);
+  reference.batches = 2;
+  reference.standard_error = 0.02;
+  const Accuracy alone = accuracy_over_seeds({{0, errors}}, reference);
+  ASSERT_TRUE(alone.bias.ci95);
+  EXPECT_NEAR(alone.bias.ci95->hi, -0.5 + 12.706 * 0.02 * 0.5, 1e-4);
+  EXPECT_NEAR(alone.bias.ci95->lo, -0.5 - 12.706 * 0.02 * 0.5, 1e-4);
+  EXPECT_FALSE(alone.rmse.ci95);
+  // Seeds -0.4 and -0.6: half width 12.706 * 0.1, in quadrature with the reference's.
+  Errors less = errors, more = errors;
+  less.bias = -0.4, more.bias = -0.6;
+  const Accuracy both = accuracy_over_seeds({{0, less}, {1, more}}, reference);
+  EXPECT_NEAR(both.bias.ci95->width() / 2, 12.706 * std::hypot(0.1, 0.01), 1e-3);
+}

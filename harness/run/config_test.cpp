@@ -129,6 +129,9 @@ TEST_F(ConfigTest, WrongTypesAndRanges) {
   EXPECT_TRUE(contains(after("/timing/time_limit_s", 0), "over 0"));
   EXPECT_TRUE(contains(after("/timing/max_samples", 1), "1 is under min_samples, 2"));
   EXPECT_TRUE(contains(after("/reference/batches", 3), "must be even"));
+  EXPECT_TRUE(contains(after("/reference/floor", "2"), "no noise floor"));
+  EXPECT_TRUE(contains(after("/reference/floor", "300%"), "no noise floor"));
+  EXPECT_TRUE(contains(after("/reference/time_limit_s", 5), "give one"));
   EXPECT_TRUE(contains(after("/scenes", Json::array()), "needs 1"));
   EXPECT_TRUE(contains(after("/name", "../up"), "does not match"));
 }
