@@ -56,8 +56,6 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
   return out;
 }
 
-}
-
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
                                      const std::vector<std::string>& prefixes) {
   return sum_of(passes, [&](const std::string& name) { return starts_with_any(name, prefixes); });
