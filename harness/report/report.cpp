@@ -56,6 +56,12 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
   return out;
 }
 
+FluxResult flux_over_seeds(const std::vector<double>& ratios) {
+  const MeanEstimate estimate = mean_ci95(ratios);
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return {estimate.mean, estimate.known ? std::optional(estimate.ci95) : std::nullopt, *least, *most};
+}
+
 std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
                                      const std::vector<std::string>& prefixes) {
   return sum_of(passes, [&](const std::string& name) { return starts_with_any(name, prefixes); });
