@@ -255,7 +255,8 @@ TEST(Conformance, DoubledFluxIsFound) {
 }
 
 TEST(Conformance, AnIgnoredSeedIsFound) {
-  expect(Fault::seed_ignored, {"repeatable"},
+  // Sixteen times the same lights are no mean over shifts: their power is off, too.
+  expect(Fault::seed_ignored, {"repeatable", "flux"},
          "half rsm 61×35, N = 100: seeds 3 and 4 give the same lights; expected others\n");
 }
 

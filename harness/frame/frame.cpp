@@ -84,6 +84,10 @@ glm::uvec2 lattice_shift(uint32_t seed) {
   return {static_cast<uint32_t>(word), static_cast<uint32_t>(word >> 32)};
 }
 
+std::string light_memory(Half half, size_t bytes) {
+  return fmt::format("lights.{} of {} bytes", half_name(half), bytes);
+}
+
 Stage::Stage(Device& d, KernelLibrary& k, const Scene& s)
     : device(d), kernels(k), scene(s), scratch(d), geometry(d, s) {}
 
@@ -150,7 +154,7 @@ Buffer& Frame::light_buffer(Half half) const {
   const bool gbuffer = half == Half::gbuffer;
   const uint32_t count = gbuffer ? importance_count_ : light_count_;
   const size_t stride = light_stride((gbuffer ? importance_method() : *method_).kind());
-  return stage_.scratch.get(fmt::format("lights.{}", half_name(half)), count * stride);
+  return stage_.scratch.get(light_memory(half, count * stride), count * stride);
 }
 
 Field Frame::field(Half half, const Buffer* pdf) {

@@ -208,6 +208,10 @@ class Frame {
   std::vector<uint32_t> bits_;
 };
 
+// Scratch memory of a half's lights. Each size has its own: a method may clear its whole buffer, and what lies behind
+// its lights is watched.
+std::string light_memory(Half half, size_t bytes);
+
 // Downloads one RGBA32F target.
 std::vector<glm::vec4> download_map(const DeviceImage& image);
 

@@ -209,11 +209,13 @@ bool Frame::has_importance() const {
 // What a kernel of the method can reach: both halves' lights, the method's own scratch memory and the PDFs.
 void Frame::arm_memory() {
   const auto arm = [&](const std::string& name, size_t bytes, bool contents) {
-    memory_.arm(name, stage_.scratch.get(name, bytes), bytes, contents);
+    // To the end of what the pool gave, which may be more: a method may clear all of it.
+    Buffer& buffer = stage_.scratch.get(name, bytes);
+    memory_.arm(name, buffer, buffer.size(), contents);
   };
   const auto arm_half = [&](Half half, const Method& method, uint32_t count) {
     const std::string name = half_name(half);
-    arm("lights." + name, count * light_stride(method.kind()), true);
+    memory_.arm("lights." + name, light_buffer(half), count * light_stride(method.kind()), true);
     const DeferredTargets& t = half == Half::gbuffer ? *gbuffer_ : *rsm_;
     if (uses_importance()) arm("pdf." + name, pyramid_texels(t.width, t.height) * sizeof(float), false);
   };

@@ -131,17 +131,18 @@ TEST(Frame, TheFirstBadLightIsNamed) {
   auto frame = session.frame("mfis", small());
   frame->generate_only(0, frame->prepare(0));
   EXPECT_EQ(frame->light_health().nan + frame->light_health().inf, 0u);
-  const auto spoil = [&](const char* buffer, size_t light, float value) {
-    session.stage.scratch.get(buffer, 64 * sizeof(gpu::Vsgl))
+  const auto spoil = [&](Half half, size_t light, float value) {
+    const size_t bytes = 64 * sizeof(gpu::Vsgl);
+    session.stage.scratch.get(light_memory(half, bytes), bytes)
         .upload(&value, sizeof value, light * sizeof(gpu::Vsgl) + offsetof(gpu::Vsgl, power));
   };
-  spoil("lights.rsm", 9, std::nanf(""));
-  spoil("lights.rsm", 5, INFINITY);
+  spoil(Half::rsm, 9, std::nanf(""));
+  spoil(Half::rsm, 5, INFINITY);
   EXPECT_EQ(frame->light_health().first_bad_pass, "generate.rsm");
   EXPECT_EQ(frame->light_health().first_bad, 5u);
   EXPECT_EQ(frame->light_health().nan, 1u);
   EXPECT_EQ(frame->light_health().inf, 1u);
-  spoil("lights.gbuffer", 7, std::nanf(""));
+  spoil(Half::gbuffer, 7, std::nanf(""));
   EXPECT_EQ(frame->light_health().first_bad_pass, "generate.gbuffer");
   EXPECT_EQ(frame->light_health().first_bad, 7u);
 }

@@ -57,6 +57,7 @@ Column flux_column() {
     return c.generate && c.generate->flux ? fmt::format("{:.3f}", c.generate->flux->value) : std::string();
   };
   column.cell = column.number;
+  column.floor = [](const Report&, const std::string&) { return std::string(); };
   return column;
 }
 

@@ -59,6 +59,8 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
   for (const char* key : {"effects",
                           "frame/method",
                           "frame/host_visibility",
+                          "generate/flux",
+                          "generate/flux/ci95",
                           "generate/overlap",
                           "generate/gap",
                           "accuracy/smape/ci95",
@@ -87,7 +89,7 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
-    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99"})
+    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "flux"})
       expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
   }
   for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {

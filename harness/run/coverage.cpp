@@ -1,6 +1,7 @@
 #include "run/coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -39,13 +40,14 @@ class Counts {
   std::vector<double> steps_;
 };
 
-// On one axis of a level, the two texels that bilinear filtering at `position` reads, and their weights
-// (shaders/pyramid.glsl).
-struct AxisTaps {
-  uint32_t block, from[2], to[2];  // in base texels
-  double weight[2];
+// A texel of a level, on one axis: the base texels [from, to) of its block, and its weight.
+struct Tap {
+  uint32_t from, to;
+  double weight;
 };
-AxisTaps axis_taps(uint32_t base, uint32_t level, double position) {
+
+// The two that bilinear filtering at `position` reads on one axis of a level (shaders/pyramid.glsl).
+std::array<Tap, 2> taps(uint32_t base, uint32_t level, double position) {
   const uint32_t block = 1u << level, size = (base + block - 1) / block;
   const double centre = std::clamp(position / block - 0.5, 0.0, size - 1.0);
   const auto lower = static_cast<uint32_t>(centre);
@@ -53,17 +55,18 @@ AxisTaps axis_taps(uint32_t base, uint32_t level, double position) {
   const double part = std::min(1.0, static_cast<double>(base) / block - upper);
   double f = centre - lower;
   if (part < 0.5) f *= 2 * part / ((0.5 + part) * (0.5 + part));
-  const auto end = [&](uint32_t texel) { return std::min(base, (texel + 1) * block); };
-  return {block, {lower * block, upper * block}, {end(lower), end(upper)}, {1 - f, f}};
+  const auto tap = [&](uint32_t texel, double weight) {
+    return Tap{texel * block, std::min(base, (texel + 1) * block), weight};
+  };
+  return {tap(lower, 1 - f), tap(upper, f)};
 }
 
 // The mean over a texel's block counts `times` times in all: each of its base texels, times over their number.
 void add_level(Counts* counts, const glm::vec4& kernel, uint32_t level, double times, glm::uvec2 size) {
-  const AxisTaps x = axis_taps(size.x, level, kernel.x), y = axis_taps(size.y, level, kernel.y);
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      const double texels = double(x.to[i] - x.from[i]) * (y.to[j] - y.from[j]);
-      counts->add({x.from[i], y.from[j]}, {x.to[i], y.to[j]}, times * x.weight[i] * y.weight[j] / texels);
+  for (const Tap& y : taps(size.y, level, kernel.y)) {
+    for (const Tap& x : taps(size.x, level, kernel.x)) {
+      const double texels = double(x.to - x.from) * (y.to - y.from);
+      counts->add({x.from, y.from}, {x.to, y.to}, times * x.weight * y.weight / texels);
     }
   }
 }
