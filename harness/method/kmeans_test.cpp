@@ -151,8 +151,8 @@ INSTANTIATE_TEST_SUITE_P(Variants, KMeansOracle,
                          ::testing::Values(Variant{"kmeans2d", 2}, Variant{"kmeans3d", 3},
                                            Variant{"kmeans2d-segmented", 2},
                                            Variant{"kmeans3d-segmented", 3}),
-                         [](const auto& info) {
-                           std::string name = info.param.method;
+                         [](const auto& variant) {
+                           std::string name = variant.param.method;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
