@@ -26,7 +26,7 @@ std::string fault_of_draws(const MethodInfo& method, std::span<const double> rat
   const double most = 1 + method.worst_flux_bound();
   double log_product = 0;
   for (const double r : ratios) log_product += std::log(r / most);  // -inf where a set carries nothing
-  if (!(log_product > std::log(kOdds))) return "";
+  if (log_product <= std::log(kOdds)) return "";  // a NaN goes on
   const double mean = most * std::exp(log_product / static_cast<double>(ratios.size()));
   return fmt::format(
       "its lights carry {:.4g} × the texels' power (geometric mean of {} seeds), and it states at most {:g} in the mean: "

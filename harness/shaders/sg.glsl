@@ -81,7 +81,7 @@ float vmf_complement(float sharpness) {
 }
 
 // Inverse of banerjee_sharpness: the root q in (0,1] of (1-q)(2+q(2-q)) = κ q(2-q), by Newton's method from the vMF
-// lobe's own 1-r, which is within 3 % of it. Error < 1e-6 for κ in [0,2^41].
+// lobe's own 1-r, which is within 5 % of it. Error < 1e-6 for κ in [0,2^41].
 float banerjee_complement(float sharpness) {
   float q = vmf_complement(sharpness);
   for (int i = 0; i < 3; ++i) {

@@ -163,7 +163,7 @@ dvec3 shade_vsgl(const Surface& s, const gpu::Vsgl& light, const VsglShading& sh
                                             : shade_vsgl16(s, light, shading);
 }
 
-double cancelling_alpha(const Surface& s, const gpu::Vsgl& light, const VsglShading& shading) {
+double cancelling_alpha(const Surface& s, const gpu::Vsgl& light) {
   const Lobe lobe(s);
   const bool is_glossy = std::max({s.f0.x, s.f0.y, s.f0.z}) > 0;
   const auto sharpness = [](const glm::vec3& power, float value) {
@@ -171,12 +171,11 @@ double cancelling_alpha(const Surface& s, const gpu::Vsgl& light, const VsglShad
   };
   const double receiver = is_glossy ? 2 * std::max(lobe.eta_x, lobe.eta_y) : 0;
   const double emitter = sharpness(light.specular, light.specular_sharpness);
-  return (receiver + emitter) * Sight(s, light, shading.disk).solid_angle() / (4 * pi);
+  return (receiver + emitter) * Sight(s, light, false).solid_angle() / (4 * pi);
 }
 
-dvec3 shade_cancelled(const Surface& s, const gpu::Vsgl& light, const gpu::Vpl& texel,
-                      const VsglShading& shading) {
-  const Sight to(s, light, shading.disk);
+dvec3 shade_cancelled(const Surface& s, const gpu::Vsgl& light, const gpu::Vpl& texel) {
+  const Sight to(s, light, false);
   return rho(s, texel, to.direction) * to.solid_angle() / (pi * to.radius2());
 }
 

@@ -48,6 +48,9 @@ float shading_variance(Vsgl light, float distance2) {
   return max(variance, distance2 * 4.5474735e-13);
 }
 
+// Of the disk that a light is seen as, r² = 2σ² of the variance in three dimensions [VSGL14 §3.2], whatever VARIANCE says.
+float disk_radius2(Vsgl light, float distance2) { return 2.0 * max(light.variance, distance2 * 4.5474735e-13); }
+
 // `nothing` comes back for a light of no power.
 vec3 shade_vsgl(Receiver r, Vsgl light) {
   vec3 to_mean = light.mean - r.surface.position;
@@ -68,7 +71,7 @@ vec3 shade_vsgl(Receiver r, Vsgl light) {
 bool is_cancelled(Receiver r, Vsgl light, float alpha) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
-  float radius2 = 2.0 * shading_variance(light, distance2);
+  float radius2 = disk_radius2(light, distance2);
   vec3 f0 = r.surface.f0;
   float receiver = max(f0.r, max(f0.g, f0.b)) > 0.0 ? 2.0 * max(r.eta_x, r.eta_y) : 0.0;
   float emitter = luminance(light.specular) > 0.0 ? light.specular_sharpness : 0.0;
@@ -79,7 +82,7 @@ bool is_cancelled(Receiver r, Vsgl light, float alpha) {
 vec3 shade_cancelled(Receiver r, Vsgl light, Vpl texel) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
-  float radius2 = 2.0 * shading_variance(light, distance2);
+  float radius2 = disk_radius2(light, distance2);
   return vpl_rho(r.surface, texel, to_mean * inversesqrt(distance2)) *
          solid_angle_over_area(sqrt(distance2), radius2);
 }
