@@ -70,8 +70,11 @@ std::vector<glm::vec4> download_map(const DeviceImage& image) {
 
 std::vector<LightPoint> Frame::light_points() const {
   std::vector<LightPoint> points;
-  for (const auto& light : vsgls())
-    points.push_back({light.mean, clears_sigma() ? std::sqrt(light.variance) : 0});
+  const float tolerance = kVisibilityTolerance * stage_.scene.diagonal();
+  for (const auto& light : vsgls()) {
+    const float sigma = std::sqrt(light.variance);
+    points.push_back({light.mean, clears_sigma() ? sigma : std::min(sigma, tolerance)});
+  }
   for (const auto& light : vpls()) points.push_back({light.position, 0});
   return points;
 }

@@ -68,7 +68,6 @@ std::vector<SurfacePoint> surface_points(const Scene& scene, uint32_t count) {
 
 constexpr uint32_t kPool = 1u << 20;  // points of ism, from which each map takes its share
 constexpr uint32_t kCoarsest = 4;     // holes are filled down to 4×4: a wider one is open space
-constexpr float kTolerance = 3e-4f;   // of depths, as a share of the scene's diagonal
 constexpr size_t kFrameBytes = 2 * sizeof(glm::vec4);
 
 std::filesystem::path shader(const char* file) { return data_root() / "harness" / "frame" / file; }
@@ -81,7 +80,7 @@ ImperfectShadowMaps::ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& sc
       scratch_(scratch),
       technique_(technique),
       parameters_(parameters),
-      tolerance_(kTolerance * scene.diagonal()) {
+      tolerance_(kVisibilityTolerance * scene.diagonal()) {
   if (technique_ == Visibility::ism) {
     const auto points = surface_points(scene, kPool);
     points_ = Buffer(kernels.device(), "ism points", points.size() * sizeof(SurfacePoint));
@@ -120,8 +119,8 @@ ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const B
                                                {"LIGHT_CLEARANCE", clears_sigma ? "1" : "0"}});
   const struct {
     uint32_t count;
-    float least;
-  } push{count, 0.1f * tolerance_};
+    float tolerance;
+  } push{count, tolerance_};
   recorder.pass(pass_name("splat"), [&] {
     recorder.fill(maps, 0x7F800000u);
     recorder.dispatch(make_frames, {lights, frames}, push, groups_for(count, 64));

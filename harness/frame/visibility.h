@@ -24,9 +24,15 @@ Visibility parse_visibility(const std::string& name);  // throws Error(config)
 std::string visibility_name(Visibility v);
 inline bool has_shadow_maps(Visibility v) { return v >= Visibility::ism; }
 
+// How near to a VSGL's mean nothing counts as an occluder, as a share of the scene's diagonal, and no more than the
+// light's σ; and how much farther than a shadow map's depth a receiver may be. The papers test a light at its mean, by
+// shadow maps, whose bias lets through that the mean of a bent cluster lies a little below its surface: a ray without
+// any tolerance finds every such light hidden.
+inline constexpr float kVisibilityTolerance = 1e-3f;
+
 // Where a shadow ray ends: `stop_short` metres before `position`. For a VSGL that is its mean μ, where both papers
-// test it ([VSGL14], [MFIS16]: one test a light); with `light_clearance` sigma one standard deviation before it, since the
-// mean of a curved cluster lies inside the solid.
+// test it ([VSGL14], [MFIS16]: one test a light), but for the tolerance above; with `light_clearance` sigma one standard
+// deviation before it.
 struct LightPoint {
   glm::vec3 position{0};
   float stop_short = 0;
