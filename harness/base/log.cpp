@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace vsglbench {
 namespace {
 LogLevel current = LogLevel::normal;
@@ -16,7 +18,7 @@ void log_line(LogLevel level, const std::string& prefix, const std::string& mess
   // A progress bar may stand on the line: clear it first.
   const char* clear = ::isatty(STDERR_FILENO) ? "\r\x1b[K" : "";
   // Not fmt::print: a stderr that takes nothing more is no reason to stop.
-  std::fputs(fmt::format("{}{}{}\n", clear, prefix, message).c_str(), stderr);
+  std::fputs(fmt::format("{}{}{}\n", clear, prefix, printable(message)).c_str(), stderr);
 }
 
 }  // namespace vsglbench

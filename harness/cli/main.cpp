@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/nearest.h"
+#include "base/printable.h"
 #include "cli/command.h"
 #include "method/plugin.h"
 #include "method/registry.h"
@@ -21,9 +22,8 @@ namespace {
 
 using namespace vsglbench;
 
-int report(std::string message, int code) {
-  for (char& c : message) c = c == '\n' ? ' ' : c;
-  std::fputs(("vsglbench: " + message + "\n").c_str(), stderr);  // never throws, unlike fmt::print
+int report(const std::string& message, int code) {
+  std::fputs(("vsglbench: " + printable(message) + "\n").c_str(), stderr);  // never throws, unlike fmt::print
   return code;
 }
 

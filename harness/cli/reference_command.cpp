@@ -93,7 +93,9 @@ void add_reference_command(CLI::App& app, CommandResult*) {
                    "convention at the first bounce, see README: light or camera")
       ->check(CLI::IsMember({"light", "camera"}))
       ->capture_default_str();
-  command->add_option("--seed", options->parameters.seed, "of the random numbers")->capture_default_str();
+  command->add_option("--seed", options->parameters.seed, "of the random numbers")
+      ->check(CLI::Range(uint64_t{0}, (uint64_t{1} << 53) - 1))
+      ->capture_default_str();
   command->add_flag("--no-occlusion", options->no_occlusion, "ignore occluders between the two bounces");
   command->callback([=] { compute(*options); });
 }

@@ -203,9 +203,11 @@ std::vector<float> shrink(SgEvaluator& evaluator, std::vector<float> row) {
 
 std::string reproducer(const SgQuestion& question, const std::vector<float>& row) {
   const std::string kernel = question.has_kernel() ? " --kernel " + question.kernel_name() : "";
-  return fmt::format("printf '{}\\n{}\\n' | vsglbench sg{} --function {}",
+  // Without a file it prints its own table.
+  const char* in = question.function == SgFunction::receiver ? " --in /dev/stdin" : "";
+  return fmt::format("printf '{}\\n{}\\n' | vsglbench sg{} --function {}{}",
                      fmt::join(question.info().columns, ","), fmt::join(row, ","), kernel,
-                     question.info().name);
+                     question.info().name, in);
 }
 
 }  // namespace vsglbench

@@ -2,19 +2,11 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
 #include "report/table_layout.h"
 
 namespace vsglbench {
 namespace {
-
-// Without control characters, which a report may bring from anywhere.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) c = ' ';
-  }
-  return text;
-}
 
 // Columns on a terminal: one for each sign of UTF-8 text.
 size_t display_width(const std::string& text) {
