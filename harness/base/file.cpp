@@ -101,8 +101,9 @@ fs::path library_directory() {
 
 namespace {
 
-// The source tree that the build folder with these libraries stands in relation to. A build folder copied by itself
-// would read the kernels of the tree that it came from, whatever they have become since: that is refused.
+// The source tree that the build folder with these libraries stands in relation to. A build folder copied by
+// itself would read the kernels of the tree that it came from, whatever they have become since: that is
+// refused.
 fs::path source_tree(const fs::path& libraries) {
   std::error_code ec;
   const fs::path built = VSGLBENCH_LIBRARY_DIR, source = VSGLBENCH_SOURCE_DIR;
@@ -110,7 +111,8 @@ fs::path source_tree(const fs::path& libraries) {
   const fs::path beside = (libraries / source.lexically_relative(built)).lexically_normal();
   if (fs::exists(beside / "harness" / "shaders", ec) && !fs::equivalent(beside, source, ec)) return beside;
   throw fail(ErrorKind::usage,
-             "{} is a copy of the build folder of {} without its source tree: copy both, use cmake --install, or name a "
+             "{} is a copy of the build folder of {} without its source tree: copy both, use cmake "
+             "--install, or name a "
              "tree in VSGLBENCH_ROOT",
              libraries.string(), source.string());
 }

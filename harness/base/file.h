@@ -30,8 +30,9 @@ std::filesystem::path cache_directory();
 // Folder of this library, "lib" of an installed or built vsglbench.
 std::filesystem::path library_directory();
 
-// Folder of kernels, scenes, configs, schemas: $VSGLBENCH_ROOT, else ../share/vsglbench beside library_directory(), else
-// the source tree of this build folder. Throws Error(usage) in a build folder that was copied without its source tree.
+// Folder of kernels, scenes, configs, schemas: $VSGLBENCH_ROOT, else ../share/vsglbench beside
+// library_directory(), else the source tree of this build folder. Throws Error(usage) in a build folder that
+// was copied without its source tree.
 std::filesystem::path data_root();
 
 }  // namespace vsglbench

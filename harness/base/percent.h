@@ -8,7 +8,8 @@
 
 namespace vsglbench {
 
-// 2 for "2%" or "2 %"; nothing for anything else, a bare number included: whether it meant percent isn't said.
+// 2 for "2%" or "2 %"; nothing for anything else, a bare number included: whether it meant percent isn't
+// said.
 inline std::optional<double> parse_percent(std::string_view text) {
   if (!text.ends_with('%')) return std::nullopt;
   text.remove_suffix(1);

@@ -7,8 +7,12 @@ namespace {
 
 TEST(Printable, NothingSteersTheTerminal) {
   EXPECT_EQ(printable("\x1b[31mred\r\n\t\x7f"), " [31mred    ");
-  EXPECT_EQ(printable("a\xc2\x9b" "31mb"), "a 31mb");                // CSI of the second set
-  EXPECT_EQ(printable("a\xe2\x80\xae" "b\xe2\x81\xa6"), "a b ");  // from right to left; isolate
+  EXPECT_EQ(printable("a\xc2\x9b"
+                      "31mb"),
+            "a 31mb");  // CSI of the second set
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b\xe2\x81\xa6"),
+            "a b ");  // from right to left; isolate
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a b");
 }
 

@@ -11,9 +11,8 @@ namespace vsglbench {
 namespace {
 
 TEST_F(CliTest, EveryCommandHasHelpWithAnExample) {
-  for (const char* command :
-       {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size", "kernels",
-        "table"}) {
+  for (const char* command : {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size",
+                              "kernels", "table"}) {
     const Finished f = run({command, "--help"});
     EXPECT_EQ(f.code, 0);
     EXPECT_TRUE(contains(f.out, "Example"));

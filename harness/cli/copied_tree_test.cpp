@@ -21,7 +21,8 @@ class CopiedTreeTest : public CliTest {
   // Exit code of the copy, and what it said.
   std::pair<int, std::string> run_copy(const fs::path& build, const std::string& arguments) const {
     const fs::path said = folder_ / "said";
-    const std::string command = (build / "bin" / "vsglbench").string() + " " + arguments + " > " + said.string() + " 2>&1";
+    const std::string command =
+        (build / "bin" / "vsglbench").string() + " " + arguments + " > " + said.string() + " 2>&1";
     const int code = std::system(command.c_str());
     return {WEXITSTATUS(code), read_text(said)};
   }

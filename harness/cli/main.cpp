@@ -100,7 +100,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return report(std::string("standard output: ") + std::strerror(errno), 2);
-    if (std::ferror(stdout)) return report("standard output: what was printed could not be written; is the disk full?", 2);
+    if (std::ferror(stdout))
+      return report("standard output: what was printed could not be written; is the disk full?", 2);
     return result.exit_code;
   } catch (const CLI::ParseError& e) {
     return e.get_exit_code() == 0 ? app.exit(e) : report_usage(app, e, arguments);

@@ -68,11 +68,13 @@ TEST_F(PluginTest, ABadOneCostsItsOwnCaseAndNothingElse) {
 // Each used to give status ok and a plausible SMAPE.
 TEST_F(PluginTest, KernelsThatAreWrongInSilenceAreRefused) {
   use_methods({"off-by-one", "endless-loop", "push-block", "mfis"});
-  const Finished f = run({"-q", "--plugin-path", bad_.string(), "run", write_config().string(), "--out", out_.string()});
+  const Finished f =
+      run({"-q", "--plugin-path", bad_.string(), "run", write_config().string(), "--out", out_.string()});
   EXPECT_EQ(f.code, 1) << f.err;
   const Report r = report();
   EXPECT_EQ(of(r, "mfis").status, Status::ok);
-  expect_failed(of(r, "off-by-one"), "refused", "the first is light 0, and byte 0 past the end of lights.rsm");
+  expect_failed(of(r, "off-by-one"), "refused",
+                "the first is light 0, and byte 0 past the end of lights.rsm");
   expect_failed(of(r, "endless-loop"), "plugin", "endless_loop.comp: a loop does not end");
   expect_failed(of(r, "push-block"), "plugin", "block has 12 bytes, and the host pushes 8");
 }

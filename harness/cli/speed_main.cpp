@@ -68,8 +68,8 @@ bool print_reference_speed(const std::string& name) {
   small.samples = 256;
   const Scene scene = load_scene(name, {data_root() / "scenes", {}});
   const SpeedRatio speed = measure_speed_ratio(scene, small, 5);
-  return print(fmt::format("reference rays/s over a bare Embree loop's, {}", name).c_str(), speed.ratio(), "x",
-               0.7, true);
+  return print(fmt::format("reference rays/s over a bare Embree loop's, {}", name).c_str(), speed.ratio(),
+               "x", 0.7, true);
 }
 
 }  // namespace

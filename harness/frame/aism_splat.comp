@@ -8,15 +8,13 @@
 #version 460
 #include "types.h"
 layout(local_size_x = 256) in;
-layout(push_constant, scalar) uniform Push {
-  uint count, map_size, per_map, cluster_count, width, height;
-};
+layout(push_constant, scalar) uniform Push { uint count, map_size, per_map, cluster_count, width, height; };
 #include "ism_surface.glsl"
 layout(set = 0, binding = 6) uniform sampler2D position_map;
 
 const uint kMostClusters = 4096u;  // SurfaceClusters::kMost
 const uint kRun = kMostClusters / gl_WorkGroupSize.x;
-const uint kBins = 16u;      // along an edge of the map of directions
+const uint kBins = 16u;       // along an edge of the map of directions
 const uint kSamples = 2048u;  // of the G-buffer
 // What stands behind everything the samples show still gets some points: they may have missed a pixel.
 const float kUnseen = 0.05;
@@ -86,7 +84,10 @@ uint cluster_at(float target) {
   uint low = 0u, high = cluster_count - 1u;
   while (low < high) {
     uint middle = (low + high) / 2u;
-    if (cumulative[middle] <= target) low = middle + 1u; else high = middle;
+    if (cumulative[middle] <= target)
+      low = middle + 1u;
+    else
+      high = middle;
   }
   return low;
 }

@@ -8,8 +8,9 @@
 //               light of power where there is no surface, no flux or no PDF; also with each parameter at each
 //               of its choices, its minimum and its maximum
 //   flux        Σ light power within MethodInfo::flux_bound of Σ texel power, in the mean over 16 shifts,
-//               also with each parameter at each of its choices, its minimum and its maximum; on a PDF that changes
-//               by a factor of 16 within a few texels, within uneven_flux_bound and three standard errors
+//               also with each parameter at each of its choices, its minimum and its maximum; on a PDF that
+//               changes by a factor of 16 within a few texels, within uneven_flux_bound and three standard
+//               errors
 //   passes      each pass is one of Steps (generate.<half>.<step>) and has a time; two frames have the same
 //               ones; nothing is dispatched outside a pass
 //   bounds      nothing is written past the lights asked for, nor past the end of a scratch buffer

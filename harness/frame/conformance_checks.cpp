@@ -139,8 +139,8 @@ struct FluxInput {
 // On an uneven PDF the mean over 16 shifts is itself uncertain: three standard errors are allowed for.
 void check_flux_on(Inspection& inspection, const Json& parameters, const FluxInput& in) {
   const auto name =
-      fmt::format("smooth half {} {}×{}, N = {}, {} shifts{}{}", half_name(in.half), in.size.x, in.size.y, in.wanted,
-                  kShifts, in.uneven ? ", an uneven PDF" : "", suffix_of(parameters));
+      fmt::format("smooth half {} {}×{}, N = {}, {} shifts{}{}", half_name(in.half), in.size.x, in.size.y,
+                  in.wanted, kShifts, in.uneven ? ", an uneven PDF" : "", suffix_of(parameters));
   inspection.on(name, [&] {
     oracle::Half half = in.uneven ? uneven_half(in.size.x, in.size.y) : smooth_half(in.size.x, in.size.y);
     if (in.half == Half::gbuffer) look_from_eye(half);

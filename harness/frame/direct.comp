@@ -22,7 +22,7 @@ void main() {
   vec2 plane = vec2(dot(d, lamp.right), dot(d, lamp.up)) / (along * lamp.extent);
   if ((lamp.perspective != 0u && z <= 0.0) || any(greaterThan(abs(plane), vec2(1.0)))) return;
   ivec2 seen = clamp(ivec2((vec2(0.5) + vec2(0.5, -0.5) * plane) * vec2(lamp.width, lamp.height)), ivec2(0),
-                   ivec2(lamp.width - 1u, lamp.height - 1u));
+                     ivec2(lamp.width - 1u, lamp.height - 1u));
   vec4 lit = texelFetch(rsm_position_map, seen, 0);
   vec3 to_light = lamp.perspective != 0u ? -d * inversesqrt(dot(d, d)) : -lamp.forward;
   float irradiance_scale = lamp.perspective != 0u ? 1.0 / dot(d, d) : 1.0;

@@ -59,8 +59,8 @@ void add(FrameTimes& times, const SubmissionTimes& submission) {
   times.span_ms += submission.span_ms;
 }
 
-// The shift of one iteration: from the seed's own along Roberts' R2 sequence, so that the iterations' lattices
-// fill each other's gaps.
+// The shift of one iteration: from the seed's own along Roberts' R2 sequence, so that the iterations'
+// lattices fill each other's gaps.
 glm::uvec2 iteration_shift(uint32_t seed, uint32_t iteration) {
   return lattice_shift(seed) + iteration * glm::uvec2(3242174889u, 2447445414u);
 }
@@ -312,9 +312,7 @@ void Frame::generate(Recorder& r, Method& method, const Field& f, const LightTar
   generate_dispatches_ += r.dispatches() - before;
 }
 
-bool Frame::clears_sigma() const {
-  return chosen(parameters_.shading, "light_clearance") == "sigma";
-}
+bool Frame::clears_sigma() const { return chosen(parameters_.shading, "light_clearance") == "sigma"; }
 
 bool Frame::needs_light_texels() const {
   if (method_->kind() != LightKind::vsgl) return false;

@@ -18,11 +18,11 @@
 
 namespace vsglbench {
 
-// Whose lights on the G-buffer make the PDF on the RSM: the method's own; VSGLs, of `mfis` [VSGL14 §3]; VPLs, of
-// `vpl`, as the first BRSM had it (Ritschel et al. 2011) [VSGL14 Fig. 4a]; or nobody's: the power that each texel
-// reflects.
+// Whose lights on the G-buffer make the PDF on the RSM: the method's own; VSGLs, of `mfis` [VSGL14 §3]; VPLs,
+// of `vpl`, as the first BRSM had it (Ritschel et al. 2011) [VSGL14 Fig. 4a]; or nobody's: the power that
+// each texel reflects.
 enum class Importance { own, vsgl, vpl, flux };
-const std::vector<std::string>& importance_names();  // in the order of the enumeration
+const std::vector<std::string>& importance_names();    // in the order of the enumeration
 Importance parse_importance(const std::string& name);  // throws Error(config)
 
 // Parameters of a case that are not the method's own.
@@ -39,8 +39,8 @@ struct FrameParameters {
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
   uint32_t iterations = 1;
-  // Every pass is submitted by itself and what it wrote is looked at: see Frame::bad_output(). Times of such a
-  // frame are not comparable.
+  // Every pass is submitted by itself and what it wrote is looked at: see Frame::bad_output(). Times of such
+  // a frame are not comparable.
   bool check_passes = false;
 };
 
@@ -104,8 +104,8 @@ class Frame {
         const FrameParameters& parameters, ExactVisibility exact);
   ~Frame();
 
-  // Renders with the lattice shift of `seed`. Waits for the device. `watched`: with memory_fault(), and not to be timed
-  // against a frame that is not.
+  // Renders with the lattice shift of `seed`. Waits for the device. `watched`: with memory_fault(), and not
+  // to be timed against a frame that is not.
   FrameTimes render(uint32_t seed, bool watched = false);
 
   // For timing generation alone. prepare() draws the halves, which then stand for every frame of these sizes,
@@ -115,10 +115,11 @@ class Frame {
   FrameTimes generate_only(uint32_t seed, const KeptPdfs& pdfs, bool watched = false);
   LightHealth light_health() const;  // of the last generate_only() or render()
 
-  // Of the last watched frame: which lights no kernel wrote, and what was written past the end of a buffer that the
-  // method may write; empty: nothing.
+  // Of the last watched frame: which lights no kernel wrote, and what was written past the end of a buffer
+  // that the method may write; empty: nothing.
   const std::string& memory_fault() const { return memory_fault_; }
-  // Of the last frame, on the RSM: Σ over its lights, and over its texels, of the luminance of the reflected power, W.
+  // Of the last frame, on the RSM: Σ over its lights, and over its texels, of the luminance of the reflected
+  // power, W.
   double light_power() const;
   double texel_power() const;
   // Whether the PDF on the RSM is above 0 anywhere; true where none is used.
@@ -142,8 +143,8 @@ class Frame {
   // The first pass, in the order of the frame, whose output of the last render() holds a NaN or Inf; empty
   // when none does.
   std::string first_bad_pass() const;
-  // With check_passes: the first NaN or Inf that a pass of the last render() or generate_only() wrote, whether or
-  // not it is still there at the end.
+  // With check_passes: the first NaN or Inf that a pass of the last render() or generate_only() wrote,
+  // whether or not it is still there at the end.
   std::optional<BadOutput> bad_output() const { return check_ ? check_->first_bad() : std::nullopt; }
   // Kernels and scratch memory that the method asked for.
   size_t method_kernels() const { return context_.kernel_count(); }
@@ -208,8 +209,8 @@ class Frame {
   std::vector<uint32_t> bits_;
 };
 
-// Scratch memory of a half's lights. Each size has its own: a method may clear its whole buffer, and what lies behind
-// its lights is watched.
+// Scratch memory of a half's lights. Each size has its own: a method may clear its whole buffer, and what
+// lies behind its lights is watched.
 std::string light_memory(Half half, size_t bytes);
 
 // Downloads one RGBA32F target.

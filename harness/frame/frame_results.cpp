@@ -251,8 +251,8 @@ std::string Frame::unwritten_lights(Half half) const {
                                          is_vpl ? unused : std::vector<size_t>());
   if (found.records == 0) return "";
   if (found.records < count)
-    return fmt::format("{} of {} lights of generate.{} were not written, the first is light {}", found.records,
-                       count, half_name(half), found.first);
+    return fmt::format("{} of {} lights of generate.{} were not written, the first is light {}",
+                       found.records, count, half_name(half), found.first);
   return fmt::format("none of the {} lights of generate.{} was written", count, half_name(half));
 }
 

@@ -281,8 +281,8 @@ TEST(Validation, IsSilentOverEveryMethod) {
   {
     Session session(scene, checked);
     for (const MethodInfo* method : all_methods()) {
-      for (const Visibility v : {Visibility::none, Visibility::exact, Visibility::ism, Visibility::aism,
-                                 Visibility::tism}) {
+      for (const Visibility v :
+           {Visibility::none, Visibility::exact, Visibility::ism, Visibility::aism, Visibility::tism}) {
         auto frame = session.frame(method->name, small(v));
         frame->render(0);
         frame->render_direct();

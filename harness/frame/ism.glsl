@@ -3,7 +3,8 @@
 // directions and its map covers them all, that of a VPL the hemisphere above it. Depth is the distance in
 // metres as float bits, which order as unsigned integers. The including file declares `uint maps[]`, `vec4
 // frames[]` (position, nothing nearer than w is an occluder; axis, w = 1 for all directions, 0 for the
-// hemisphere: two for each light) and `uint map_size`; one that reads maps, `float map_tolerance` in metres, too.
+// hemisphere: two for each light) and `uint map_size`; one that reads maps, `float map_tolerance` in metres,
+// too.
 
 const uint kIsmEmpty = 0x7F800000u;  // +infinity
 const float kIsmReach = 1.0;         // texels, from a point to about the farthest of its texel

@@ -12,7 +12,8 @@ layout(push_constant, scalar) uniform Push {
   uint count;
   float tolerance;  // metres
 };
-// How far from a VSGL's mean nothing counts as an occluder: 1 its standard deviation, 0 no more than `tolerance` of it.
+// How far from a VSGL's mean nothing counts as an occluder: 1 its standard deviation, 0 no more than
+// `tolerance` of it.
 #ifndef LIGHT_CLEARANCE
 #define LIGHT_CLEARANCE 0
 #endif
@@ -25,7 +26,8 @@ void main() {
   frames[2u * k + 1u] = vec4(lights[k].geometric_normal, 0.0);
 #else
   float sigma = sqrt(lights[k].variance);
-  frames[2u * k] = vec4(lights[k].mean, max(LIGHT_CLEARANCE == 1 ? sigma : min(sigma, tolerance), 0.1 * tolerance));
+  frames[2u * k] =
+      vec4(lights[k].mean, max(LIGHT_CLEARANCE == 1 ? sigma : min(sigma, tolerance), 0.1 * tolerance));
   frames[2u * k + 1u] = vec4(lights[k].diffuse_axis, 1.0);
 #endif
 }

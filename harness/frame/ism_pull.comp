@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Fine { uint fine[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Coarse { uint coarse[]; };
 layout(push_constant, scalar) uniform Push { uint size; };  // size: of the coarse level
-const uint kIsmEmpty = 0x7F800000u;  // as in ism.glsl
+const uint kIsmEmpty = 0x7F800000u;                         // as in ism.glsl
 
 void main() {
   uint texel = gl_GlobalInvocationID.x, k = gl_GlobalInvocationID.y;  // one row of groups a light

@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Coarse { uint coarse[]; };
 layout(set = 0, binding = 1, std430) buffer Fine { uint fine[]; };
 layout(push_constant, scalar) uniform Push { uint size; };  // size: of the fine level
-const uint kIsmEmpty = 0x7F800000u;  // as in ism.glsl
+const uint kIsmEmpty = 0x7F800000u;                         // as in ism.glsl
 
 void main() {
   uint texel = gl_GlobalInvocationID.x, k = gl_GlobalInvocationID.y;  // one row of groups a light

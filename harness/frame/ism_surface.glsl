@@ -31,7 +31,10 @@ uint triangle_at(SurfaceCluster c, float area) {
   uint low = c.first, high = c.first + c.count - 1u;
   while (low < high) {
     uint middle = (low + high) / 2u;
-    if (areas[middle] <= area) low = middle + 1u; else high = middle;
+    if (areas[middle] <= area)
+      low = middle + 1u;
+    else
+      high = middle;
   }
   return low;
 }

@@ -30,7 +30,7 @@ double texel_share(const gpu::Emitter& e, uint32_t x, uint32_t y) {
 
 dvec3 lobe_reflectance(const glm::vec3& diffuse, const glm::vec3& f0, double ndf, double cosine) {
   const double c = std::clamp(cosine, 1e-3, 1.0);
-  const double alpha = ndf > 0 ? ndf : std::sqrt(2 / (2 - ndf));  // of a Phong exponent -ndf
+  const double alpha = ndf > 0 ? ndf : std::sqrt(2 / (2 - ndf));           // of a Phong exponent -ndf
   const double g2 = 1 / std::sqrt(1 + alpha * alpha * (1 / (c * c) - 1));  // Heitz 2014, both ways alike
   const double peak = ndf > 0 ? 1 : (2 - ndf) / -ndf;
   const double f90 = std::min(1.0, 50.0 * std::max({f0.x, f0.y, f0.z}));

@@ -1,5 +1,5 @@
-// The power of lights and of RSM texels in one unit, so that their sums can be compared: luminance of the power that
-// is reflected, in both lobes, W. In double precision.
+// The power of lights and of RSM texels in one unit, so that their sums can be compared: luminance of the
+// power that is reflected, in both lobes, W. In double precision.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 
 namespace vsglbench {
 
-// Rd + Rs of a surface lit from a direction whose cosine with its shading normal is `cosine`: what leaves it over what
-// arrives, per channel, as its lobes carry it [MFIS16 Eq. 7] (shaders/field.glsl). `ndf` as in gpu::Vpl.
+// Rd + Rs of a surface lit from a direction whose cosine with its shading normal is `cosine`: what leaves it
+// over what arrives, per channel, as its lobes carry it [MFIS16 Eq. 7] (shaders/field.glsl). `ndf` as in
+// gpu::Vpl.
 glm::dvec3 lobe_reflectance(const glm::vec3& diffuse, const glm::vec3& f0, double ndf, double cosine);
 
 // Of both lobes of a VSGL, ∫ c G = c A(λ); of a VPL or VSL, whose flux is incident, Φ (Rd + Rs).

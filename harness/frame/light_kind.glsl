@@ -1,5 +1,5 @@
-// Lights as shading sees them. LIGHT_VPL 1: Vpl records, 0: Vsgl. LIGHT_VSL 1: the Vpl records are virtual spherical
-// lights.
+// Lights as shading sees them. LIGHT_VPL 1: Vpl records, 0: Vsgl. LIGHT_VSL 1: the Vpl records are virtual
+// spherical lights.
 #if LIGHT_VPL
 #include "brdf.glsl"
 #include "vpl_shading.glsl"

@@ -1,8 +1,10 @@
-// The RSM texel that stands for each light: the one that the primary light sees its mean through. Where every texel
-// is a light of its own that is the light's texel.
-//  * `texels`: its exact BRDF, with the light's whole flux, for the consistent bias reduction [VSGL14 §3.3]. Unlike the
+// The RSM texel that stands for each light: the one that the primary light sees its mean through. Where every
+// texel is a light of its own that is the light's texel.
+//  * `texels`: its exact BRDF, with the light's whole flux, for the consistent bias reduction [VSGL14 §3.3].
+//  Unlike the
 //    paper, which filters BRDF parameters, the BRDF is a texel's: with N it converges to the same.
-//  * LOBE_FILTER 1: the light's specular lobe becomes that texel's, unfiltered, of the same power [VSGL14 Fig. 3a].
+//  * LOBE_FILTER 1: the light's specular lobe becomes that texel's, unfiltered, of the same power [VSGL14
+//  Fig. 3a].
 #version 460
 #include "types.h"
 layout(local_size_x = 64) in;
@@ -11,7 +13,10 @@ layout(local_size_x = 64) in;
 #include "vpl_light.glsl"
 layout(set = 0, binding = 5, scalar) buffer Lights { Vsgl lights[]; };
 layout(set = 0, binding = 6, scalar) writeonly buffer Texels { Vpl texels[]; };
-layout(push_constant, scalar) uniform Push { Emitter emitter; uint count; };
+layout(push_constant, scalar) uniform Push {
+  Emitter emitter;
+  uint count;
+};
 
 // Texel that `position` falls into.
 ivec2 texel_of(vec3 position) {

@@ -31,7 +31,8 @@ std::string MemoryWatch::overrun() {
   return "";
 }
 
-Unwritten find_unwritten(const std::vector<uint32_t>& words, size_t stride, const std::vector<size_t>& unused) {
+Unwritten find_unwritten(const std::vector<uint32_t>& words, size_t stride,
+                         const std::vector<size_t>& unused) {
   Unwritten found;
   for (size_t i = 0; i < words.size() / stride; ++i) {
     bool whole = true;

@@ -8,7 +8,11 @@ struct Mixed {
   float power;
 };
 layout(set = 0, binding = 0, std430) readonly buffer From { float from[]; };
-layout(set = 0, binding = 1, scalar) buffer To { uint head; float total; Mixed to[]; };
+layout(set = 0, binding = 1, scalar) buffer To {
+  uint head;
+  float total;
+  Mixed to[];
+};
 layout(push_constant) uniform Push { uint count, at, bad; };  // bad: bits of what goes to `at`
 
 void main() {

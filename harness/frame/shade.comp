@@ -1,6 +1,6 @@
 // Indirect radiance of every pixel: the sum over lights, each through its visibility.
-// VISIBILITY 0: none; 1: bit matrix; 2: shadow maps. BIAS_REDUCTION 1: where a light's lobes are smooth against the disk
-// it is seen as, its exact BRDFs [VSGL14 §3.3].
+// VISIBILITY 0: none; 1: bit matrix; 2: shadow maps. BIAS_REDUCTION 1: where a light's lobes are smooth
+// against the disk it is seen as, its exact BRDFs [VSGL14 §3.3].
 #version 460
 #include "types.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,15 +16,15 @@ layout(set = 0, binding = 5, scalar) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = 6, std430) buffer Indirect { vec4 indirect[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
-  uint first, count;     // lights [first, first+count) in this dispatch
-  uint words;            // of visibility bits per light
-  uint accumulate;       // 1: add to what is there
-  uint map_size;         // of a shadow map
-  float map_tolerance;   // of its depths, metres
-  uint random;           // a word of this seed
-  float radius2_scale;   // of the square of every light's radius [VSGL14 §5]
-  float weight;          // of what is added
-  float alpha;           // of the bias reduction
+  uint first, count;    // lights [first, first+count) in this dispatch
+  uint words;           // of visibility bits per light
+  uint accumulate;      // 1: add to what is there
+  uint map_size;        // of a shadow map
+  float map_tolerance;  // of its depths, metres
+  uint random;          // a word of this seed
+  float radius2_scale;  // of the square of every light's radius [VSGL14 §5]
+  float weight;         // of what is added
+  float alpha;          // of the bias reduction
 };
 #if VISIBILITY == 1
 layout(set = 0, binding = 7 + BIAS_REDUCTION, std430) readonly buffer Bits { uint bits[]; };

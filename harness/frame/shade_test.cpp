@@ -96,7 +96,8 @@ TEST_F(ShadeTest, CancelledLightsHaveTheirExactBrdfs) {
   });
   for (const VsglModel model : {VsglModel::vsgl16, VsglModel::vsgl14}) {
     for (const float alpha : {0.001f, 0.1f, 3.0f}) {
-      // Half of the variance is for the SGs: the disk that decides and shades a cancelled light keeps all of it.
+      // Half of the variance is for the SGs: the disk that decides and shades a cancelled light keeps all of
+      // it.
       const bool disk = model == VsglModel::vsgl16 && alpha == 0.1f;
       const VsglShading shading{.disk = disk, .model = model};
       Cancelled host{std::vector<dvec3>(pixels_.size()), std::vector<double>(pixels_.size()),

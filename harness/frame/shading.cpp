@@ -12,7 +12,8 @@ const std::vector<ShadingAxis>& shading_axes() {
       {"shading",
        "SHADING_MODEL",
        {"vsgl16", "vsgl14"},
-       "products of a light's SGs [MFIS16 App. C], or triple products with the disk's solid angle [VSGL14 §3.1]"},
+       "products of a light's SGs [MFIS16 App. C], or triple products with the disk's solid angle [VSGL14 "
+       "§3.1]"},
       {"lobe_filter",
        "LOBE_FILTER",
        {"on", "off"},
@@ -32,7 +33,8 @@ const std::vector<ShadingAxis>& shading_axes() {
       {"receiver",
        "RECEIVER_LOBE",
        {"asg", "sg"},
-       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], or its NDF widened by the light's SG"},
+       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], or its NDF widened by the light's "
+       "SG"},
       {"lambert_sharpness",
        "LAMBERT_LOBE",
        {"2", "2.2925"},

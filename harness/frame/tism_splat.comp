@@ -72,8 +72,17 @@ uint tessellate(uint k, SurfaceCluster cluster, vec3 origin, vec4 axis, float la
     bool hidden = behind(a, b, c, axis);
     if (!hidden && depth < kDeepest && 2u * round < kMostRounds && longest > piece_edge2(a, b, c, axis)) {
       // Turned so that ab is the longest edge, whose middle makes two halves.
-      if (edges.y == longest) { vec3 first = a; a = b; b = c; c = first; }
-      else if (edges.z == longest) { vec3 first = a; a = c; c = b; b = first; }
+      if (edges.y == longest) {
+        vec3 first = a;
+        a = b;
+        b = c;
+        c = first;
+      } else if (edges.z == longest) {
+        vec3 first = a;
+        a = c;
+        c = b;
+        b = first;
+      }
       vec3 middle = 0.5 * (a + b);
       depth += 1u;
       waiting[3u * n] = middle;

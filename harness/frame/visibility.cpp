@@ -114,9 +114,9 @@ ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const B
                                                      bool clears_sigma) {
   Buffer& frames = scratch_.get("ism frames", count * kFrameBytes);
   Buffer& maps = level(parameters_.size, count);
-  const Kernel& make_frames =
-      kernels_.get(shader("ism_frames.comp"), {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"},
-                                               {"LIGHT_CLEARANCE", clears_sigma ? "1" : "0"}});
+  const Kernel& make_frames = kernels_.get(
+      shader("ism_frames.comp"),
+      {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"}, {"LIGHT_CLEARANCE", clears_sigma ? "1" : "0"}});
   const struct {
     uint32_t count;
     float tolerance;

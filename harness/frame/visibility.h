@@ -24,15 +24,15 @@ Visibility parse_visibility(const std::string& name);  // throws Error(config)
 std::string visibility_name(Visibility v);
 inline bool has_shadow_maps(Visibility v) { return v >= Visibility::ism; }
 
-// How near to a VSGL's mean nothing counts as an occluder, as a share of the scene's diagonal, and no more than the
-// light's σ; and how much farther than a shadow map's depth a receiver may be. The papers test a light at its mean, by
-// shadow maps, whose bias lets through that the mean of a bent cluster lies a little below its surface: a ray without
-// any tolerance finds every such light hidden.
+// How near to a VSGL's mean nothing counts as an occluder, as a share of the scene's diagonal, and no more
+// than the light's σ; and how much farther than a shadow map's depth a receiver may be. The papers test a
+// light at its mean, by shadow maps, whose bias lets through that the mean of a bent cluster lies a little
+// below its surface: a ray without any tolerance finds every such light hidden.
 inline constexpr float kVisibilityTolerance = 1e-3f;
 
-// Where a shadow ray ends: `stop_short` metres before `position`. For a VSGL that is its mean μ, where both papers
-// test it ([VSGL14], [MFIS16]: one test a light), but for the tolerance above; with `light_clearance` sigma one standard
-// deviation before it.
+// Where a shadow ray ends: `stop_short` metres before `position`. For a VSGL that is its mean μ, where both
+// papers test it ([VSGL14], [MFIS16]: one test a light), but for the tolerance above; with `light_clearance`
+// sigma one standard deviation before it.
 struct LightPoint {
   glm::vec3 position{0};
   float stop_short = 0;
@@ -63,8 +63,8 @@ class ImperfectShadowMaps {
     uint32_t size;
     float tolerance;  // metres, by which a receiver may be farther away than the map's depth
   };
-  // `seen`: what the camera sees, for techniques that adapt to it. `clears_sigma`: what is nearer to a VSGL's mean than
-  // its standard deviation is no occluder.
+  // `seen`: what the camera sees, for techniques that adapt to it. `clears_sigma`: what is nearer to a VSGL's
+  // mean than its standard deviation is no occluder.
   Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count,
              const DeferredTargets& seen, bool clears_sigma = false);
   // Of all buffers for `count` lights, beside the scene as the rasteriser has it: what points are made from

@@ -1,6 +1,6 @@
-// Tests only: the directions that virtual spherical lights are sampled by, and their densities. MODE 0: the BRDF's
-// density in direction `given.xyz`; 1: a direction drawn with u = given.xy, choose = given.z, and its density; 2: one
-// uniform in the cone about the normal with 1-cosθ = `cone`, and whether it counts as inside.
+// Tests only: the directions that virtual spherical lights are sampled by, and their densities. MODE 0: the
+// BRDF's density in direction `given.xyz`; 1: a direction drawn with u = given.xy, choose = given.z, and its
+// density; 2: one uniform in the cone about the normal with 1-cosθ = `cone`, and whether it counts as inside.
 #version 460
 #include "types.h"
 layout(local_size_x = 64) in;

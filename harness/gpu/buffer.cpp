@@ -123,7 +123,8 @@ void Buffer::upload(const void* data, size_t bytes, size_t offset) {
 void Buffer::fill(uint32_t word, size_t bytes, size_t offset) {
   if (offset + bytes > size_ + guard_) throw std::logic_error("Buffer::fill past the end");
   if (bytes == 0) return;
-  device_->run_once([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, buffer_, offset, bytes, word); });
+  device_->run_once(
+      [&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, buffer_, offset, bytes, word); });
 }
 
 void Buffer::download(void* data, size_t bytes, size_t offset) const {

@@ -19,9 +19,9 @@ inline constexpr uint32_t unwritten_word = 0xFFC0DEADu;
 class Buffer {
  public:
   Buffer() = default;
-  // `guard`: so many bytes more lie behind the end, less where the device's storage-buffer range ends. Kernels have
-  // them bound with the rest, so that what is written past the end arrives there and can be seen. Throws
-  // Error(case_failed) when `bytes` is over that range or the device's memory.
+  // `guard`: so many bytes more lie behind the end, less where the device's storage-buffer range ends.
+  // Kernels have them bound with the rest, so that what is written past the end arrives there and can be
+  // seen. Throws Error(case_failed) when `bytes` is over that range or the device's memory.
   Buffer(Device& device, const std::string& name, size_t bytes, size_t guard = 0);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
@@ -37,8 +37,8 @@ class Buffer {
 
   // Blocking; `bytes` and `offset` are multiples of 4 and may reach into the guard.
   void fill(uint32_t word, size_t bytes, size_t offset);
-  // Blocking copies through a staging buffer (or straight, where the memory is host-visible). A download may reach into
-  // the guard.
+  // Blocking copies through a staging buffer (or straight, where the memory is host-visible). A download may
+  // reach into the guard.
   void upload(const void* data, size_t bytes, size_t offset = 0);
   void download(void* data, size_t bytes, size_t offset = 0) const;
   template <class T>

@@ -138,7 +138,8 @@ void Device::pick(const std::string& select) {
     if (fits && (!chosen || (select.empty() && chosen->type == "cpu" && info.type != "cpu"))) chosen = &info;
   }
   if (!chosen && !select.empty()) {
-    throw fail(ErrorKind::device, "no device '{}'; known, by index and name: {}", select, fmt::join(names, ", "));
+    throw fail(ErrorKind::device, "no device '{}'; known, by index and name: {}", select,
+               fmt::join(names, ", "));
   }
   if (!chosen) chosen = &infos.front();
   if (!chosen->missing.empty()) {

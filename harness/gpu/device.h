@@ -20,7 +20,7 @@ struct DeviceInfo {
   uint64_t max_storage_range = 0, memory_bytes = 0;
   uint32_t max_image_dimension = 0;
   std::vector<std::string> features;  // optional ones that it has, which a method may ask for
-  std::vector<std::string> missing;  // needed features and extensions that it lacks; empty = usable
+  std::vector<std::string> missing;   // needed features and extensions that it lacks; empty = usable
 };
 
 // Every physical device the loader shows; empty when there is none. Throws Error(device) when the loader

@@ -173,7 +173,8 @@ void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::spa
                       uint32_t groups_z) const {
   if (push_bytes != push_bytes_) {
     throw fail(ErrorKind::plugin,
-               "{}: its push-constant block has {} bytes, and the host pushes {}; make both the same (scalar layout)",
+               "{}: its push-constant block has {} bytes, and the host pushes {}; make both the same (scalar "
+               "layout)",
                name_, push_bytes_, push_bytes);
   }
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
@@ -181,8 +182,8 @@ void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::spa
   layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);
   if (const LoopCheck* check = LoopCheck::of(*device_)) {
     const VkDescriptorSet set = check->set();
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline_layout(), LoopCheck::kSet, 1, &set,
-                            0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline_layout(),
+                            LoopCheck::kSet, 1, &set, 0, nullptr);
   }
   layout_.push_constants(commands, push, push_bytes);
   vkCmdDispatch(commands, groups_x, groups_y, groups_z);

@@ -82,8 +82,9 @@ class Kernel {
   const std::string& name() const { return name_; }
   const FloatOutputs& float_outputs() const { return float_outputs_; }
   uint32_t push_bytes() const { return push_bytes_; }  // of its push-constant block
-  // Binds and dispatches groups; a group count of zero records nothing. Throws Error(plugin) where `push_bytes` is
-  // not the size of the kernel's block: what is missing would be read as garbage, and what is over, left out.
+  // Binds and dispatches groups; a group count of zero records nothing. Throws Error(plugin) where
+  // `push_bytes` is not the size of the kernel's block: what is missing would be read as garbage, and what is
+  // over, left out.
   void dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
                 const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1,
                 uint32_t groups_z = 1) const;

@@ -29,9 +29,8 @@ LoopCheck::LoopCheck(Device& device) : device_(device), ended_(device, "loops", 
   ended_.upload(&none, sizeof none);
   const VkDescriptorSetLayoutBinding binding{kBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
                                              VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-  const VkDescriptorSetLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                               .bindingCount = 1,
-                                               .pBindings = &binding};
+  const VkDescriptorSetLayoutCreateInfo layout{
+      .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 1, .pBindings = &binding};
   VK_CHECK(vkCreateDescriptorSetLayout(device.handle(), &layout, nullptr, &layout_));
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
   const VkDescriptorPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
@@ -71,7 +70,8 @@ void LoopCheck::report() {
   const uint32_t none = 0;
   ended_.upload(&none, sizeof none);
   throw fail(ErrorKind::plugin,
-             "{}: a loop does not end: lavapipe ends the loops of an invocation after 65535 rounds, and what it wrote is "
+             "{}: a loop does not end: lavapipe ends the loops of an invocation after 65535 rounds, and what "
+             "it wrote is "
              "cut short; end it, or share its rounds among dispatches",
              kernels_.at(ended - 1));
 }

@@ -1,8 +1,9 @@
-// On lavapipe, which ends all loops of an invocation after 65535 rounds without a word: which kernel it did that to.
+// On lavapipe, which ends all loops of an invocation after 65535 rounds without a word: which kernel it did
+// that to.
 //
-// Once the rounds are used up every later loop of the invocation is left after its first. So each kernel compiled for a
-// CPU device ends with a loop of two rounds, and writes its number where it got only one. On a GPU there is no such
-// limit, and a kernel that never ends loses the device.
+// Once the rounds are used up every later loop of the invocation is left after its first. So each kernel
+// compiled for a CPU device ends with a loop of two rounds, and writes its number where it got only one. On a
+// GPU there is no such limit, and a kernel that never ends loses the device.
 #pragma once
 
 #include <memory>
@@ -18,8 +19,8 @@ inline constexpr const char* loop_check_define = "VSGLBENCH_LOOP_CHECK";
 class LoopCheck {
  public:
   static constexpr uint32_t kSet = 1, kBinding = 77, kConstant = 900;
-  // Appended to the source of a kernel whose `main` was renamed to vsglbench_main. The bound is 2, which only the
-  // device knows: a loop of known length would be unrolled.
+  // Appended to the source of a kernel whose `main` was renamed to vsglbench_main. The bound is 2, which only
+  // the device knows: a loop of known length would be unrolled.
   static constexpr const char* kSource =
       "\n#undef main\n"
       "layout(set = 1, binding = 77) writeonly buffer VsglbenchLoops { uint vsglbench_ended; };\n"
@@ -43,7 +44,8 @@ class LoopCheck {
   VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
   uint32_t number_of(const std::string& kernel);  // from 1
-  // When the device is idle: throws Error(plugin) naming the kernel whose loops were ended since the last call.
+  // When the device is idle: throws Error(plugin) naming the kernel whose loops were ended since the last
+  // call.
   void report();
 
  private:

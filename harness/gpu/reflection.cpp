@@ -187,9 +187,11 @@ uint32_t bytes_of(const Reflected& r, uint32_t type, Member owner) {
     case kTypeVector:
       return w[3] * bytes_of(r, w[2], owner);
     case kTypeMatrix: {
-      const uint32_t columns = w[3], rows = r.types.at(w[2])[3], scalar = bytes_of(r, r.types.at(w[2])[2], owner);
+      const uint32_t columns = w[3], rows = r.types.at(w[2])[3],
+                     scalar = bytes_of(r, r.types.at(w[2])[2], owner);
       const bool row_major = r.row_major.count(owner) > 0;
-      return ((row_major ? rows : columns) - 1) * r.matrix_stride.at(owner) + (row_major ? columns : rows) * scalar;
+      return ((row_major ? rows : columns) - 1) * r.matrix_stride.at(owner) +
+             (row_major ? columns : rows) * scalar;
     }
     case kTypeArray:
       return r.length(type) == 0 ? 0

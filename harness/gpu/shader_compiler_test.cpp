@@ -27,7 +27,9 @@ class ShaderCompiler : public ::testing::Test {
     ::unsetenv("VSGLBENCH_CACHE");
     fs::remove_all(dir_);
   }
-  std::vector<uint32_t> compile(const char* size = "1") { return compile_shader(dir_ / "k.comp", {{"SIZE", size}}, {}); }
+  std::vector<uint32_t> compile(const char* size = "1") {
+    return compile_shader(dir_ / "k.comp", {{"SIZE", size}}, {});
+  }
   fs::path dir_;
 };
 

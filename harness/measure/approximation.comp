@@ -1,6 +1,7 @@
 #version 460
-// One light at one surface a row, by the functions that the pixels call. MODE 0: a VSGL. 1: a cancelled pair; w = 1 where
-// bias reduction at `alpha` cancels it. 2: a virtual spherical light, `runs` independent estimates a row.
+// One light at one surface a row, by the functions that the pixels call. MODE 0: a VSGL. 1: a cancelled pair;
+// w = 1 where bias reduction at `alpha` cancels it. 2: a virtual spherical light, `runs` independent
+// estimates a row.
 #include "types.h"
 layout(local_size_x = 64) in;
 #include "vsgl_shading.glsl"
@@ -11,7 +12,10 @@ layout(set = 0, binding = 0, scalar) readonly buffer Surfaces { Vpl surfaces[]; 
 layout(set = 0, binding = 1, scalar) readonly buffer Lights { Vsgl lights[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Texels { Vpl texels[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Values { vec4 values[]; };
-layout(push_constant) uniform Push { uint count, runs; float alpha; };
+layout(push_constant) uniform Push {
+  uint count, runs;
+  float alpha;
+};
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
@@ -22,7 +26,8 @@ void main() {
   values[i] = vec4(shade_vsgl(make_receiver(surface), lights[row]), 0.0);
 #elif MODE == 1
   Receiver r = make_receiver(surface);
-  values[i] = vec4(shade_cancelled(r, lights[row], texels[row]), is_cancelled(r, lights[row], alpha) ? 1.0 : 0.0);
+  values[i] =
+      vec4(shade_cancelled(r, lights[row], texels[row]), is_cancelled(r, lights[row], alpha) ? 1.0 : 0.0);
 #else
   values[i] = vec4(shade_vsl(surface, texels[row], random_hash(uvec2(i, 77u))), 0.0);
 #endif

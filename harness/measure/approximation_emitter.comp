@@ -11,7 +11,8 @@ void main() {
   Moments sum = empty_moments();
   for (uint i = 0u; i < emitter.width * emitter.height; ++i) {
     Texel t;
-    if (load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t)) sum = merge_two(sum, leaf_moments(t));
+    if (load_texel(emitter, ivec2(i % emitter.width, i / emitter.width), t))
+      sum = merge_two(sum, leaf_moments(t));
   }
   lights[0] = make_vsgl(sum, 1.0, 0.0);
 }

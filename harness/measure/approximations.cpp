@@ -218,8 +218,8 @@ std::vector<ErrorRow> disk_errors(ShadingProbe& probe) {
       });
 }
 
-// A light that radiates alike in all directions is an SG of sharpness d²/σ²: here as sharp as the receiver's lobe, on the
-// lobe's axis and a width of the lobe off it.
+// A light that radiates alike in all directions is an SG of sharpness d²/σ²: here as sharp as the receiver's
+// lobe, on the lobe's axis and a width of the lobe off it.
 std::vector<ErrorRow> filtered_errors(ShadingProbe& probe) {
   std::vector<PairRow> rows;
   for (const float ndf : {-30.0f, -1023.0f, 0.1f, 0.3f, 1.0f}) {
@@ -228,7 +228,8 @@ std::vector<ErrorRow> filtered_errors(ShadingProbe& probe) {
       PairRow row{fmt::format("{} {}", ndf_name(ndf), place)};
       for (size_t k = 0; k < kViewAngles; ++k) {
         const double angle = radians(sg_receiver::kViews[k]);
-        ShadingPair& pair = row.pairs[k] = mirror_pair({"", 0, 1, ndf}, angle, 1 / std::sqrt(sharpness_of(ndf)));
+        ShadingPair& pair = row.pairs[k] =
+            mirror_pair({"", 0, 1, ndf}, angle, 1 / std::sqrt(sharpness_of(ndf)));
         const dvec3 off = place[0] == 'o'   ? dvec3(0)
                           : place[0] == 'i' ? -std::tan(width) * away_at(angle)
                                             : std::tan(width * std::cos(angle)) * across();

@@ -1,6 +1,6 @@
 #version 460
-// Rows of arguments to one operation of harness/shaders, in single precision, for `vsglbench sg` and its tests.
-// FUNCTION as in sg_evaluation.h; COLUMNS floats a row in, RESULTS out.
+// Rows of arguments to one operation of harness/shaders, in single precision, for `vsglbench sg` and its
+// tests. FUNCTION as in sg_evaluation.h; COLUMNS floats a row in, RESULTS out.
 layout(local_size_x = 64) in;
 
 #include "asg.glsl"
@@ -52,8 +52,8 @@ void main() {
 #elif FUNCTION == 13
   result(0, asg_product(vector(0), argument(3), argument(4), argument(5)));
 #elif FUNCTION == 14
-  Surface surface = Surface(vec3(0.0), vector(14), vector(14), vector(17), vec3(argument(20)), vec3(argument(21)),
-                            argument(22));
+  Surface surface = Surface(vec3(0.0), vector(14), vector(14), vector(17), vec3(argument(20)),
+                            vec3(argument(21)), argument(22));
   Vsgl light;
   light.mean = vector(0);
   light.variance = argument(3);
@@ -67,7 +67,8 @@ void main() {
   light.power = 1.0;
   result(0, shade_vsgl(make_receiver(surface), light).x);
 #elif FUNCTION == 15
-  Surface surface = Surface(vec3(0.0), vector(4), vector(4), vector(7), vec3(0.0), vec3(argument(10)), argument(11));
+  Surface surface =
+      Surface(vec3(0.0), vector(4), vector(4), vector(7), vec3(0.0), vec3(argument(10)), argument(11));
   result(0, shade_sg(make_receiver(surface), 1.0, Sg(vector(0), argument(3))).x);
 #endif
 }

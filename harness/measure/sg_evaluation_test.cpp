@@ -76,7 +76,8 @@ SgAnswers cosines(DiffuseKernel kernel, float sharpness) {
 // Rows of four arguments to sg_pixel_test.comp; three results a row.
 std::vector<float> shade_rows(const Kernel& pixel, const std::vector<float>& rows) {
   const auto count = static_cast<uint32_t>(rows.size() / 4);
-  Buffer in(device(), "arguments", rows.size() * sizeof(float)), out(device(), "values", count * 3 * sizeof(float));
+  Buffer in(device(), "arguments", rows.size() * sizeof(float)),
+      out(device(), "values", count * 3 * sizeof(float));
   in.upload(std::span<const float>(rows));
   Recorder recorder(device());
   recorder.begin();
@@ -235,8 +236,8 @@ TEST(Shrinking, LeavesAShortRowThatFailsStill) {
             "clamped_cosine");
 }
 
-// A texel by itself comes back with the sharpness it had: Banerjee's formula gives it from the mean length that the
-// kernel made of it.
+// A texel by itself comes back with the sharpness it had: Banerjee's formula gives it from the mean length
+// that the kernel made of it.
 TEST(Pixels, ALoneTexelKeepsItsSharpness) {
   std::vector<float> rows;
   for (const float sharpness : {1e-3f, 0.1f, 0.5f, 0.99f, 1.0f, 2.0f, 2.2925f, 10.0f, 1e3f, 1e6f, 0x1p41f})
@@ -262,8 +263,8 @@ TEST(Pixels, FollowTheirSwitches) {
                                           {{"DIFFUSE_KERNEL", std::to_string(static_cast<int>(kernel))},
                                            {"LOBE_CONVERSION", std::to_string(banerjee)},
                                            {"VARIANCE", std::to_string(disk)}});
-        const auto values = shade_rows(
-            pixel, {cosine, distance, variance, complement, cosine, 1000, 1e-20f, complement});
+        const auto values =
+            shade_rows(pixel, {cosine, distance, variance, complement, cosine, 1000, 1e-20f, complement});
         const double lobe =
             banerjee ? exact::banerjee_sharpness(complement) : exact::toksvig_sharpness(complement);
         EXPECT_NEAR(values[1], lobe, 1e-5);

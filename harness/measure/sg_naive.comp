@@ -35,8 +35,8 @@ void main() {
 #elif FUNCTION == 6
   result(0, exp(argument(7) * (dot(vector(0), vector(4)) - 1.0)));
 #elif FUNCTION == 14
-  Surface surface = Surface(vec3(0.0), vector(14), vector(14), vector(17), vec3(argument(20)), vec3(argument(21)),
-                            argument(22));
+  Surface surface = Surface(vec3(0.0), vector(14), vector(14), vector(17), vec3(argument(20)),
+                            vec3(argument(21)), argument(22));
   Vsgl light;
   light.mean = vector(0);
   light.variance = argument(3);

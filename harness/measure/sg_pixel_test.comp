@@ -1,7 +1,8 @@
 #version 460
-// Tests only: a light made from moments, shaded at a diffuse surface. A row: cosine of the light's direction at
-// the surface, the light's distance and variance, 1-r of its diffuse lobe, which points at the surface. Results:
-// red of the reflected radiance, the lobe's sharpness, and 1-r of a texel's lobe whose sharpness is the second argument.
+// Tests only: a light made from moments, shaded at a diffuse surface. A row: cosine of the light's direction
+// at the surface, the light's distance and variance, 1-r of its diffuse lobe, which points at the surface.
+// Results: red of the reflected radiance, the lobe's sharpness, and 1-r of a texel's lobe whose sharpness is
+// the second argument.
 layout(local_size_x = 64) in;
 
 #include "moments.glsl"

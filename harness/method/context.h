@@ -27,8 +27,8 @@ class KernelLibrary {
 };
 
 // Device buffers by name, shared by all cases of a run: what they hold lasts for one frame only. A buffer
-// grows when a larger one is asked for; ask again in every frame instead of keeping the reference. Behind each lies
-// a guard; both hold unwritten_word at first.
+// grows when a larger one is asked for; ask again in every frame instead of keeping the reference. Behind
+// each lies a guard; both hold unwritten_word at first.
 class ScratchPool {
  public:
   static constexpr size_t kGuardBytes = 16384;

@@ -75,9 +75,9 @@ class FilteredSampling : public Method {
       Buffer& squares = context_.scratch(fmt::format("squares.{}", half_name(field.half)),
                                          target.count * sizeof(glm::vec4));
       squares_[field.half] = &squares;
-      steps.recorder().dispatch(
-          sample_, {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer, squares}, push,
-          groups_for(target.count, 64));
+      steps.recorder().dispatch(sample_,
+                                {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer, squares},
+                                push, groups_for(target.count, 64));
     });
   }
 

@@ -5,8 +5,8 @@
 
 namespace vsglbench {
 
-// Writes `files`, pairs of name and text up to a null, to the cache under their hash; returns the folder of the method's
-// own kernels, beside which lies what they include; empty for null. Throws Error(output).
+// Writes `files`, pairs of name and text up to a null, to the cache under their hash; returns the folder of
+// the method's own kernels, beside which lies what they include; empty for null. Throws Error(output).
 std::filesystem::path unpack_kernels(const char* const* files);
 
 // What kernels in `folder`, when that was unpacked, include; empty for any other folder.

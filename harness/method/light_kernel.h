@@ -10,8 +10,8 @@
 namespace vsglbench {
 
 // A method made of one kernel that includes light_kernel.glsl and defines `Vsgl make_light(uint i)` (kind
-// vsgl) or `Vpl make_light(uint i)` (kind vpl or vsl). Its one pass is `sample`. `parameters`: at most 4, which the
-// kernel reads as parameter[0..3].
+// vsgl) or `Vpl make_light(uint i)` (kind vpl or vsl). Its one pass is `sample`. `parameters`: at most 4,
+// which the kernel reads as parameter[0..3].
 std::unique_ptr<Method> make_light_kernel(MethodContext& context, const std::string& kernel_file,
                                           LightKind kind, const std::vector<float>& parameters = {});
 

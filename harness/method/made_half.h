@@ -17,8 +17,8 @@ oracle::Half random_half(uint32_t width, uint32_t height, uint32_t seed);
 // reflected power times a slowly varying importance, so it is zero nowhere.
 oracle::Half smooth_half(uint32_t width, uint32_t height);
 
-// The same texels under a PDF as a view makes it: above 0 everywhere, but changing by a factor of 16 at the edges of
-// what is seen, and by as much again over a few texels.
+// The same texels under a PDF as a view makes it: above 0 everywhere, but changing by a factor of 16 at the
+// edges of what is seen, and by as much again over a few texels.
 oracle::Half uneven_half(uint32_t width, uint32_t height);
 
 // As the eye sees it: every texel emits the same importance.

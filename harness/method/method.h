@@ -116,8 +116,8 @@ struct MethodInfo {
   std::string source;             // paper, section
   bool takes_light_count = true;  // false: a config's N is not read
   uint32_t light_count = 0;       // then this many; 0: one a texel
-  // The parameters with which it makes VPLs or VSLs: {} always, null never, {{"shading", "exact"}} where that is
-  // set. With all others it makes VSGLs, and a config's shading keys are read.
+  // The parameters with which it makes VPLs or VSLs: {} always, null never, {{"shading", "exact"}} where that
+  // is set. With all others it makes VSGLs, and a config's shading keys are read.
   Json makes_vpls;
   std::vector<ParameterInfo> parameters;
   // Optional features that the device must have, as `vsglbench list devices` names them.
@@ -125,8 +125,8 @@ struct MethodInfo {
   // How far the lights' summed power may be from the texels', |Σ light/Σ texel - 1|, in the mean over shifts
   // of the lattice; the conformance kit holds the method to it.
   double flux_bound = 0.05;
-  // The same where the PDF changes much within a few texels, as a view's does; below 0: flux_bound holds there too. What
-  // is drawn may not carry more than this on such a PDF: a run refuses it (run/flux_check.h).
+  // The same where the PDF changes much within a few texels, as a view's does; below 0: flux_bound holds
+  // there too. What is drawn may not carry more than this on such a PDF: a run refuses it (run/flux_check.h).
   double uneven_flux_bound = -1;
   double worst_flux_bound() const { return uneven_flux_bound < flux_bound ? flux_bound : uneven_flux_bound; }
   std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters) = nullptr;

@@ -8,15 +8,16 @@
 namespace vsglbench {
 namespace {
 
-// Whatever the size, every base texel counts as often as every other: the mean over all positions of what is filtered
-// is the mean over the texels, on each level.
+// Whatever the size, every base texel counts as often as every other: the mean over all positions of what is
+// filtered is the mean over the texels, on each level.
 TEST(Oracle, FilteringOnALevelKeepsTheSumOverTexels) {
   for (const glm::uvec2 size : {glm::uvec2(64, 64), glm::uvec2(61, 35), glm::uvec2(7, 5), glm::uvec2(33, 17),
                                 glm::uvec2(9, 1), glm::uvec2(1, 66), glm::uvec2(120, 68)}) {
     const oracle::Half half = random_half(size.x, size.y, 3);
     const oracle::Pyramid pyramid(half);
     oracle::Sums texels;
-    for (uint32_t i = 0; i < half.texels.size(); ++i) texels.add(oracle::texel_sums(half, i % size.x, i / size.x), 1);
+    for (uint32_t i = 0; i < half.texels.size(); ++i)
+      texels.add(oracle::texel_sums(half, i % size.x, i / size.x), 1);
     for (uint32_t level = 0; level <= pyramid.top(); ++level) {
       double p = 0;
       oracle::Sums filtered;
@@ -26,7 +27,8 @@ TEST(Oracle, FilteringOnALevelKeepsTheSumOverTexels) {
         filtered.add(pyramid.sums(x, y, level), 1);
       }
       EXPECT_NEAR(p, 1, 1e-9) << size.x << "x" << size.y << " level " << level;
-      EXPECT_NEAR(filtered.diffuse.y / texels.diffuse.y, 1, 1e-9) << size.x << "x" << size.y << " level " << level;
+      EXPECT_NEAR(filtered.diffuse.y / texels.diffuse.y, 1, 1e-9)
+          << size.x << "x" << size.y << " level " << level;
     }
   }
 }

@@ -35,12 +35,20 @@ void store(const ReferenceResult& r, const ReferenceParameters& p) {
   layers.scalars = {{"mask", to_floats(r.mask)}};
   layers.attributes = {{"reference_hash", r.hash}};
   write_exr(cache_file(r.hash, ".exr"), layers);
-  const Json meta = {
-      {"hash", r.hash},       {"images", image_hash(r)},  {"width", p.width},
-      {"height", p.height},   {"occlusion", p.occlusion}, {"seed", p.seed},
-      {"samples", r.samples}, {"batches", r.batches},     {"photons", r.photons},
-      {"rays", r.rays},       {"seconds", r.seconds},     {"noise_floor_smape", r.noise_floor_smape},
-      {"standard_error", r.standard_error}, {"ended_by", static_cast<int>(r.ended_by)}};
+  const Json meta = {{"hash", r.hash},
+                     {"images", image_hash(r)},
+                     {"width", p.width},
+                     {"height", p.height},
+                     {"occlusion", p.occlusion},
+                     {"seed", p.seed},
+                     {"samples", r.samples},
+                     {"batches", r.batches},
+                     {"photons", r.photons},
+                     {"rays", r.rays},
+                     {"seconds", r.seconds},
+                     {"noise_floor_smape", r.noise_floor_smape},
+                     {"standard_error", r.standard_error},
+                     {"ended_by", static_cast<int>(r.ended_by)}};
   write_text(cache_file(r.hash, ".json"), meta.dump(1) + "\n");
 }
 

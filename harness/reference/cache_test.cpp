@@ -1,10 +1,12 @@
 #include "reference/cache.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "reference/test_scenes.h"
 
@@ -16,7 +18,8 @@ namespace fs = std::filesystem;
 // Points the cache at an empty folder of its own while it lives.
 class ReferenceCache : public ::testing::Test {
  protected:
-  ReferenceCache() : folder_(fs::path(VSGLBENCH_BINARY_DIR) / "reference-cache-test") {
+  ReferenceCache()
+      : folder_(fs::temp_directory_path() / ("vsglbench_cache_test_" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);
     setenv("VSGLBENCH_CACHE", folder_.c_str(), 1);
     parameters_.width = 24;

@@ -105,8 +105,9 @@ TEST_P(TiltedNormals, FollowTheStatedConvention) {
       const double light2 = glm::dot(apex - x1, apex - x1), d2 = glm::dot(x2 - x1, x2 - x1);
       if (glm::dot(leaning, l) <= 0 || glm::dot(leaning, v) <= 0) continue;
       const double at_x1 = GetParam() == ShadingNormals::light ? glm::dot(face, l) * glm::dot(leaning, v)
-                                                                : glm::dot(leaning, l) * glm::dot(face, v);
-      want += at_x1 * -v.y / (light2 * d2) * 0.8 * 0.5 / std::pow(std::numbers::pi, 2) * 4 * half * half / (k * k);
+                                                               : glm::dot(leaning, l) * glm::dot(face, v);
+      want += at_x1 * -v.y / (light2 * d2) * 0.8 * 0.5 / std::pow(std::numbers::pi, 2) * 4 * half * half /
+              (k * k);
     }
     got += r.mean.pixels[i].y;
   }

@@ -11,7 +11,8 @@
 namespace vsglbench {
 
 // Mean over the three channels of all pixels that see a surface; at least one must.
-inline double mean_of_batch(const std::vector<glm::vec3>& estimate, const std::vector<Footprint>& footprints) {
+inline double mean_of_batch(const std::vector<glm::vec3>& estimate,
+                            const std::vector<Footprint>& footprints) {
   double sum = 0, n = 0;
   for (size_t i = 0; i < estimate.size(); ++i) {
     if (!footprints[i].valid) continue;

@@ -98,7 +98,8 @@ TEST(ReferenceNoise, StandardErrorOfFourNumbers) {
 TEST(ReferenceNoise, PercentHasItsSign) {
   EXPECT_EQ(parse_percent("2%"), 2);
   EXPECT_EQ(parse_percent("0.5 %"), 0.5);
-  for (const char* text : {"", "%", "2", "two%", "2%%", "nan%", "2 x%"}) EXPECT_FALSE(parse_percent(text)) << text;
+  for (const char* text : {"", "%", "2", "two%", "2%%", "nan%", "2 x%"})
+    EXPECT_FALSE(parse_percent(text)) << text;
 }
 
 // Faces that are flat have one normal, and both conventions say the same.

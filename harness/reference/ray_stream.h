@@ -48,7 +48,10 @@ class alignas(128) RayStream {
     for (int i = 0; i < SegmentPacket::width; ++i) {
       if (p.end[i] < 0) continue;
       log_->push_back({{p.origin[0][i], p.origin[1][i], p.origin[2][i]},
-                       {p.direction[0][i], p.direction[1][i], p.direction[2][i]}, 0, p.end[i], true});
+                       {p.direction[0][i], p.direction[1][i], p.direction[2][i]},
+                       0,
+                       p.end[i],
+                       true});
     }
   }
 

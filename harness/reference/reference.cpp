@@ -135,7 +135,8 @@ void Run::choose_counts() {
     throw fail(ErrorKind::case_failed, "{}: the light sees no surface; check its position and direction",
                tracer_.scene().name);
   }
-  counts_ = sample_counts(p_, batches_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp / 4);
+  counts_ =
+      sample_counts(p_, batches_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp / 4);
   strategies_.set_counts(counts_);
 }
 
@@ -281,7 +282,12 @@ std::optional<ShadingNormals> shading_normals_named(std::string_view text) {
 std::string reference_hash(const Scene& scene, const ReferenceParameters& p) {
   Hasher hasher;
   hasher.text("vsglbench.reference").value(kAlgorithmVersion).text(scene.hash);
-  hasher.value(p.width).value(p.height).value(p.samples).value(p.batches).value(p.photons_a_sample).value(p.floor);
+  hasher.value(p.width)
+      .value(p.height)
+      .value(p.samples)
+      .value(p.batches)
+      .value(p.photons_a_sample)
+      .value(p.floor);
   hasher.value(p.seed).value(p.occlusion).value(p.strategies).value(p.shading_normals).value(p.time_limit);
   return hasher.hex();
 }

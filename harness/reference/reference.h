@@ -24,8 +24,8 @@ enum Strategy : uint32_t {
   strategy_all = 7,
 };
 
-// Which adjoint of the BRDF a shading normal n beside the face's n_g makes at x1, where cosines with the light
-// and with x2 both stand (Veach 1997 §5.3). Where n = n_g they are one.
+// Which adjoint of the BRDF a shading normal n beside the face's n_g makes at x1, where cosines with the
+// light and with x2 both stand (Veach 1997 §5.3). Where n = n_g they are one.
 enum class ShadingNormals {
   light,   // (n_g.light)(n.x2): light traced from the light, as every virtual-light method has it
   camera,  // (n.light)(n_g.x2): paths traced from the eye
@@ -54,8 +54,8 @@ struct ReferenceParameters {
 
 // What ended the work: the samples asked for were taken, `floor` was reached, or time was up.
 enum class ReferenceEnd { samples, floor, time_limit };
-std::string_view name(ReferenceEnd end);            // "samples", "floor", "time_limit"
-std::string_view name(ShadingNormals normals);      // "light", "camera"
+std::string_view name(ReferenceEnd end);        // "samples", "floor", "time_limit"
+std::string_view name(ShadingNormals normals);  // "light", "camera"
 std::optional<ShadingNormals> shading_normals_named(std::string_view name);
 
 struct ReferenceResult {
@@ -68,8 +68,8 @@ struct ReferenceResult {
   // The pixels share their x1, so that `variance` alone doesn't tell it.
   double standard_error = 0;
   ReferenceEnd ended_by = ReferenceEnd::samples;
-  uint32_t samples = 0;          // a pixel, done
-  uint32_t batches = 0;          // done
+  uint32_t samples = 0;  // a pixel, done
+  uint32_t batches = 0;  // done
   uint64_t photons = 0, rays = 0;
   double seconds = 0;
   std::string hash;  // of the scene and of everything above that determines the image

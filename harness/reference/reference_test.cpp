@@ -61,8 +61,8 @@ Estimate sum_over(const Runs& runs, uint32_t x0, uint32_t y0, uint32_t width, ui
   return e;
 }
 
-// Blocks of 8x8, which share no x1 but the pool's, and because a pixel's estimate by one strategy alone is too
-// skewed for its z to be near normal.
+// Blocks of 8x8, which share no x1 but the pool's, and because a pixel's estimate by one strategy alone is
+// too skewed for its z to be near normal.
 Agreement compare(const Runs& a, const Runs& b) {
   Agreement g;
   double n = 0, squares = 0;
@@ -87,8 +87,8 @@ Agreement compare(const Runs& a, const Runs& b) {
 
 void expect_agreement(const Runs& a, const Runs& b, const std::string& what) {
   const Agreement g = compare(a, b);
-  // Student's z of twice eight runs deviates by 1.08. 48 blocks: three standard errors of its mean are 0.47, of
-  // its deviation 0.33; and 3.64 has the odds of three standard errors of a normal one.
+  // Student's z of twice eight runs deviates by 1.08. 48 blocks: three standard errors of its mean are 0.47,
+  // of its deviation 0.33; and 3.64 has the odds of three standard errors of a normal one.
   EXPECT_LT(std::abs(g.mean_z), 0.47) << what;
   EXPECT_NEAR(g.std_z, 1.08, 0.33) << what;
   EXPECT_LT(std::abs(g.image_z), 3.64) << what << ": images differ by " << 100 * g.relative << " %";
@@ -225,12 +225,14 @@ TEST(Reference, AMicrometreRoomIsARoom) {
     light.power *= float(unit * unit);
     return test::make_scene(
         quads, {test::mirror(30, {0.9f, 0.7f, 0.5f}), test::lambert({0.6f, 0.1f, 0.1f}), Material()}, light,
-        test::camera_at(glm::vec3(0.3f, 0.5f, 0.95f) * float(unit), glm::vec3(0.5f, 0.4f, 0) * float(unit), 1));
+        test::camera_at(glm::vec3(0.3f, 0.5f, 0.95f) * float(unit), glm::vec3(0.5f, 0.4f, 0) * float(unit),
+                        1));
   };
   const ReferenceParameters p = small(256);
   const ReferenceResult metre = compute_reference(room(1), p), micrometre = compute_reference(room(1e-6), p);
   double a = 0, b = 0;
-  for (size_t i = 0; i < metre.mask.size(); ++i) a += metre.mean.pixels[i].y, b += micrometre.mean.pixels[i].y;
+  for (size_t i = 0; i < metre.mask.size(); ++i)
+    a += metre.mean.pixels[i].y, b += micrometre.mean.pixels[i].y;
   EXPECT_GT(a, 0);
   EXPECT_NEAR(b / a, 1, 0.01);
 }

@@ -12,8 +12,9 @@ struct SpeedRatio {
 };
 
 // Runs a small reference (parameters: width, height, samples, seed), logs every ray it traces, then
-// times the same reference without the log against a bare Embree loop over those rays: in the same order, on as
-// many threads, one call a ray, also of those that the reference traces 16 at a time. ratio() = reference rays/s over bare rays/s.
+// times the same reference without the log against a bare Embree loop over those rays: in the same order, on
+// as many threads, one call a ray, also of those that the reference traces 16 at a time. ratio() = reference
+// rays/s over bare rays/s.
 SpeedRatio measure_speed_ratio(const Scene& scene, const ReferenceParameters& parameters, int repeats = 3);
 double reference_speed_ratio(const Scene& scene, const ReferenceParameters& parameters);
 

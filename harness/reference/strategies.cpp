@@ -231,7 +231,8 @@ void Strategies::gather(uint32_t tile, uint32_t batch, bool teach, RayStream& ra
   const uint32_t size = guide_.tile_size();
   const uint32_t x0 = tile % guide_.tiles_x() * size, y0 = tile / guide_.tiles_x() * size;
   const uint32_t x1 = std::min(x0 + size, width_), y1 = std::min(y0 + size, height_);
-  for (uint32_t y = y0; y < y1; ++y) std::fill(estimate + y * width_ + x0, estimate + y * width_ + x1, glm::vec3(0));
+  for (uint32_t y = y0; y < y1; ++y)
+    std::fill(estimate + y * width_ + x0, estimate + y * width_ + x1, glm::vec3(0));
   for (uint32_t y = y0; y < y1; y += ReceiverGroup::block) {
     for (uint32_t x = x0; x < x1; x += ReceiverGroup::block) gather_block(x, y, batch, teach, rays, estimate);
   }

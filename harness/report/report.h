@@ -76,13 +76,14 @@ struct FrameTiming {
   Summary span;                            // ms from the first to the last timestamp of each frame
   double sum_ms = 0, unattributed_ms = 0;  // medians over frames of Σ passes, and of span − Σ passes
   std::optional<Summary> method;           // ms of all passes but gbuffer and rsm: method_time()
-  // ms that the host's shadow rays took of each frame, warm-up included, whose lights were not the last one's:
-  // the same lights are not traced again. None: no rays.
+  // ms that the host's shadow rays took of each frame, warm-up included, whose lights were not the last
+  // one's: the same lights are not traced again. None: no rays.
   std::optional<Summary> host_visibility;
 };
 
-// Σ power of the lights / Σ power of the RSM's texels, both as luminance of what is reflected: 1 where a light set keeps
-// the flux. Mean over seeds with Student's interval (absent for a single seed), and the least and the largest.
+// Σ power of the lights / Σ power of the RSM's texels, both as luminance of what is reflected: 1 where a
+// light set keeps the flux. Mean over seeds with Student's interval (absent for a single seed), and the least
+// and the largest.
 struct FluxResult {
   double value = 0;
   std::optional<Interval> ci95;
@@ -95,7 +96,8 @@ struct GenerateResult {
   Summary total;                      // ms of both halves in each frame
   uint64_t lights = 0, empty = 0;     // lights asked for and evaluated; those of them without flux
   std::optional<double> overlap,
-      gap;  // of c, how often lights hold a texel: means over the RSM of max(c-1,0), max(1-c,0); absent: not defined
+      gap;  // of c, how often lights hold a texel: means over the RSM of max(c-1,0), max(1-c,0); absent: not
+            // defined
   uint64_t shaders = 0, dispatches = 0, memory_bytes = 0;
   std::optional<FluxResult> flux;  // absent where the texels reflect nothing
 };
@@ -135,7 +137,7 @@ struct ReferenceInfo {
   // sent, spread evenly and reflected whole, would give this mean. Below kNearlyBlack next to no light
   // reaches what the camera sees, and relative metrics are undefined.
   std::optional<double> light_ratio;
-  std::optional<double> black_share;  // of the pixels, 0 … 1, that it leaves exactly black
+  std::optional<double> black_share;     // of the pixels, 0 … 1, that it leaves exactly black
   std::optional<uint64_t> batches;       // independent estimates
   std::optional<double> standard_error;  // of its mean over pixels and channels, relative to it
   std::optional<std::string> ended_by;   // "samples", "floor", "time_limit"
@@ -195,9 +197,10 @@ enum class Status { ok, failed, skipped };
 std::string_view name(Status status);
 
 struct CaseError {
-  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal"; "refused" for
-  // lights that can't be: not written, of power from nothing or beyond what the method states, written past their end;
-  // "crashed", "timeout" or "device_lost" for what ended the case's process; "device" when none can be opened
+  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal";
+  // "refused" for lights that can't be: not written, of power from nothing or beyond what the method states,
+  // written past their end; "crashed", "timeout" or "device_lost" for what ended the case's process; "device"
+  // when none can be opened
   std::string kind, message;
 };
 
@@ -256,9 +259,9 @@ struct Report {
 
 HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
 
-// Means and intervals over seeds; that of bias is widened in quadrature by the reference's own standard error,
-// and is the reference's alone for a single seed; a metric that any seed lacks is undefined. Throws Error(case_failed) for no
-// seeds.
+// Means and intervals over seeds; that of bias is widened in quadrature by the reference's own standard
+// error, and is the reference's alone for a single seed; a metric that any seed lacks is undefined. Throws
+// Error(case_failed) for no seeds.
 Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference);
 
 // Frame by frame, the sum of the passes whose dotted name starts with one of `prefixes` ("generate." or a

@@ -271,7 +271,8 @@ Json to_json(const Report& report) {
 
 namespace {
 
-// The file holds the number of pixels once a case, not with every seed; reports of old lack the method's time.
+// The file holds the number of pixels once a case, not with every seed; reports of old lack the method's
+// time.
 void restore(CaseResult& c) {
   if (c.frame && !c.frame->method) c.frame->method = method_time(c.passes);
   if (!c.accuracy) return;

@@ -114,11 +114,11 @@ TEST(ReportSchema, NullIsNowhereAllowed) {
 }
 
 TEST(ReportSchema, UnknownFieldsAreRefused) {
-  for (const char* object : {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa/0", "/aa/0/times/1",
-                             "/cases/0",
-                             "/cases/0/passes/1", "/cases/0/frame", "/cases/0/generate", "/cases/0/accuracy",
-                             "/cases/0/accuracy/bias", "/cases/0/accuracy/reference", "/cases/0/seeds/2",
-                             "/cases/0/health", "/cases/1/error", "/cases/0/temporal/static"}) {
+  for (const char* object :
+       {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa/0", "/aa/0/times/1", "/cases/0",
+        "/cases/0/passes/1", "/cases/0/frame", "/cases/0/generate", "/cases/0/accuracy",
+        "/cases/0/accuracy/bias", "/cases/0/accuracy/reference", "/cases/0/seeds/2", "/cases/0/health",
+        "/cases/1/error", "/cases/0/temporal/static"}) {
     EXPECT_NE(first_violation([&](Json& j) { at(j, object)["extra"] = 1; }), "") << object;
   }
 }

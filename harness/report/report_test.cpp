@@ -146,12 +146,10 @@ TEST(Report, SumsPassesFrameByFrame) {
 }
 
 TEST(Report, TheMethodsTimeIsAllButTheRasterisedPasses) {
-  const std::vector<PassTiming> passes = {{"gbuffer", summarize({1000, 2000, 3000})},
-                                          {"rsm", summarize({100, 200, 300})},
-                                          {"importance.gbuffer", summarize({1, 2, 3})},
-                                          {"generate.rsm.b", summarize({30, 20, 10})},
-                                          {"visibility.ism", summarize({7, 7, 7})},
-                                          {"shade", summarize({50, 50, 60})}};
+  const std::vector<PassTiming> passes = {
+      {"gbuffer", summarize({1000, 2000, 3000})},   {"rsm", summarize({100, 200, 300})},
+      {"importance.gbuffer", summarize({1, 2, 3})}, {"generate.rsm.b", summarize({30, 20, 10})},
+      {"visibility.ism", summarize({7, 7, 7})},     {"shade", summarize({50, 50, 60})}};
   const auto time = method_time(passes);
   ASSERT_TRUE(time);
   EXPECT_EQ(time->samples, (std::vector<double>{88, 79, 80}));

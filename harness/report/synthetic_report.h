@@ -41,7 +41,8 @@ inline CaseResult synthetic_case(const std::string& id) {
          {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75, 0.2 + 0.01 * d, 0.5},
          0.9});
   }
-  ReferenceInfo reference{"0123abcd", 1024, 0.5, 0.001, 0.4, 0.01, 0.002, 0.03, 0.25, 0.125, 16, 0.002, "floor"};
+  ReferenceInfo reference{"0123abcd", 1024, 0.5,   0.001, 0.4,   0.01,   0.002,
+                          0.03,       0.25, 0.125, 16,    0.002, "floor"};
   c.accuracy = accuracy_over_seeds(c.seeds, reference);
   c.accuracy->quantiles = ErrorQuantiles{5, 80, 150};
   c.temporal = Temporal{{0.1, 0.2, 3, {0.1, 0.1, 0.2}}, {0.05, 0.1, 1, {0.05, 0.1}}};
@@ -96,11 +97,11 @@ inline Report synthetic_report() {
   r.wall = {60, 40, 5, 6, 4, 1.125};
   r.scenes = {
       {"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png", {"a note"}}};
-  r.aa = {{"cornell",
-           "cornell/mfis",
-           "cornell/mfis#twin",
-           {synthetic_noise("generate", 0.16), synthetic_noise("method", 0.04),
-            synthetic_noise("frame", 0.02)}}};
+  r.aa = {
+      {"cornell",
+       "cornell/mfis",
+       "cornell/mfis#twin",
+       {synthetic_noise("generate", 0.16), synthetic_noise("method", 0.04), synthetic_noise("frame", 0.02)}}};
   r.cases = {synthetic_case("cornell/mfis"),
              synthetic_failure("cornell/vpl", Status::failed, "a NaN in pass shade"),
              synthetic_failure("sponza/vpl", Status::skipped, "sponza.gltf is absent")};

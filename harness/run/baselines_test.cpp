@@ -34,7 +34,8 @@ double spikes(Laboratory& lab, const Image& image) {
   for (const auto& p : r.pixels) mean += luminance(p) / static_cast<double>(r.pixels.size());
   for (size_t i = 0; i < r.pixels.size(); ++i) {
     if (!lab.mask[i] || !lab.reference(false).mask[i]) continue;
-    over.push_back((luminance(image.pixels[i]) - luminance(r.pixels[i])) / (luminance(r.pixels[i]) + 0.01 * mean));
+    over.push_back((luminance(image.pixels[i]) - luminance(r.pixels[i])) /
+                   (luminance(r.pixels[i]) + 0.01 * mean));
   }
   const auto at = over.begin() + static_cast<ptrdiff_t>(0.999 * static_cast<double>(over.size()));
   std::nth_element(over.begin(), at, over.end());
@@ -141,9 +142,9 @@ TEST(BiasReduction, GrowsWithAlpha) {
   }
 }
 
-// [VSGL14 §5]: averaged over iterations, each with smaller radii and other lights. Unlike what the paper hopes for, not
-// for ever: the radii of the ninth iteration are 1/40 of the first's and its lights all but points, so that with 16
-// iterations spikes outweigh what is left of the bias.
+// [VSGL14 §5]: averaged over iterations, each with smaller radii and other lights. Unlike what the paper
+// hopes for, not for ever: the radii of the ninth iteration are 1/40 of the first's and its lights all but
+// points, so that with 16 iterations spikes outweigh what is left of the bias.
 TEST(Progressive, ErrorFallsUpToEightIterations) {
   Laboratory& lab = cornell();
   const Image exact = lab.render("all-texels", {{"shading", "exact"}}, frame(64, 0));
@@ -183,8 +184,8 @@ TEST(Vsl, ErrorFallsWithLightsAndWithSamples) {
   }
 }
 
-// Spikes, at equal N. On ring514, whose reference is black but for caustics, VPLs miss nearly all of them: hardly a pixel
-// is too bright, and p99.9 says nothing.
+// Spikes, at equal N. On ring514, whose reference is black but for caustics, VPLs miss nearly all of them:
+// hardly a pixel is too bright, and p99.9 says nothing.
 TEST(Vsl, HasSmallerSpikesThanVpls) {
   for (Laboratory* lab : {&cornell(), &ring()}) {
     const FrameParameters p = frame(128, 256);
@@ -195,8 +196,8 @@ TEST(Vsl, HasSmallerSpikesThanVpls) {
     const auto rmse = [&](const Image& image) { return lab->against_reference(image, false).rmse; };
     const double vsl = of("vsl", bright), vpl = of("vpl", bright), vsl_rmse = of("vsl", rmse),
                  vpl_rmse = of("vpl", rmse);
-    std::printf("%s: p99.9 vsl %.3g, vpl %.3g; RMSE %.4g, %.4g\n", lab->scene.name.c_str(), vsl, vpl, vsl_rmse,
-                vpl_rmse);
+    std::printf("%s: p99.9 vsl %.3g, vpl %.3g; RMSE %.4g, %.4g\n", lab->scene.name.c_str(), vsl, vpl,
+                vsl_rmse, vpl_rmse);
     EXPECT_LT(vsl_rmse, vpl_rmse);
     if (lab == &cornell()) {
       EXPECT_LT(vsl, vpl);
@@ -247,8 +248,8 @@ TEST(ImportanceOf, VsglsBeatsThatOfVplsOnNearMirrors) {
   EXPECT_LT(smape["vsgl"], smape["flux"]);
 }
 
-// [VSGL14 Fig. 3]: a light whose lobe is one texel's makes a spot of its own where the filtered ones make one caustic.
-// Weaker on ring514 than in the figure: each light's variance blurs its spot, too.
+// [VSGL14 Fig. 3]: a light whose lobe is one texel's makes a spot of its own where the filtered ones make one
+// caustic. Weaker on ring514 than in the figure: each light's variance blurs its spot, too.
 TEST(LobeFilter, WithoutItTheErrorOfCausticsGrows) {
   Laboratory& lab = ring();
   for (const char* method : {"fis", "mfis"}) {

@@ -109,8 +109,9 @@ uint64_t CaseRun::frames_left() const {
 FrameTimes CaseRun::render(uint32_t seed, bool watched) {
   const double visibility_before = wall_->visibility_s;
   const Stopwatch watch;
-  FrameTimes times = config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs, watched)
-                                                            : frame_->render(seed, watched);
+  FrameTimes times = config_.measure == Measure::generation
+                         ? frame_->generate_only(seed, *input_.pdfs, watched)
+                         : frame_->render(seed, watched);
   const double device_s = times.span_ms * 1e-3, visibility_s = wall_->visibility_s - visibility_before;
   wall_->device_s += device_s;
   if (visibility_s > 0) rays_ms_.push_back(1e3 * visibility_s);
@@ -216,19 +217,21 @@ void CaseRun::check_lights() {
   throw fail(ErrorKind::case_failed, "not finite");
 }
 
-// Lights that no kernel wrote are what another case left there, and what is written past a buffer's end another's
-// memory: neither may be scored, however plausible the picture.
+// Lights that no kernel wrote are what another case left there, and what is written past a buffer's end
+// another's memory: neither may be scored, however plausible the picture.
 void CaseRun::check_memory() {
   if (!frame_->memory_fault().empty()) refuse(frame_->memory_fault());
 }
 
-// Σ light power / Σ texel power of the last frame, or 0 where the texels have none. The RSM is the same for all seeds.
+// Σ light power / Σ texel power of the last frame, or 0 where the texels have none. The RSM is the same for
+// all seeds.
 double CaseRun::check_flux() {
   if (!texel_power_) texel_power_ = frame_->texel_power();
   const double power = frame_->light_power();
   if (!(*texel_power_ > 0)) {
     if (power > 0)
-      refuse(fmt::format("power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none", power));
+      refuse(fmt::format("power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none",
+                         power));
     return 0;
   }
   // A PDF that is zero everywhere asks for no light.

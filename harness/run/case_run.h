@@ -64,7 +64,7 @@ class CaseRun {
   const ReferenceResult* reference() const { return input_.reference; }
   const Mask& mask() const {
     return mask_;
-  }  // pixels with a surface for the rasteriser and the reference alike
+  }                                        // pixels with a surface for the rasteriser and the reference alike
   Frame* frame() { return frame_.get(); }  // null before open() and after a failure
 
  private:

@@ -126,7 +126,7 @@ void read_reference(const JsonDocument& doc, Config* config) {
 // What only an image is judged with is refused where there is none.
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
-  std::vector<std::string> unread = {"seeds",      "reference",  "visibility",    "ism",
+  std::vector<std::string> unread = {"seeds",      "reference",   "visibility",    "ism",
                                      "importance", "progressive", "bias_reduction"};
   for (const ShadingAxis& axis : shading_axes()) unread.push_back(axis.key);
   for (const auto& key : unread) {

@@ -340,7 +340,8 @@ TEST_F(ConfigTest, AMissingPresetAndADiskOfTheFirstModelAreRefused) {
 
 // A level is the same whether it is written as a number or as text.
 TEST_F(ConfigTest, LevelsAreNumbersOrNames) {
-  config_["methods"] = {{{"method", "mfis"}, {"lambert_sharpness", {2, 2.2925}}, {"light_clearance", {0, "sigma"}}}};
+  config_["methods"] = {
+      {{"method", "mfis"}, {"lambert_sharpness", {2, 2.2925}}, {"light_clearance", {0, "sigma"}}}};
   const Config config = load();
   ASSERT_EQ(config.cases.size(), 4u);
   EXPECT_EQ(config.cases[3].frame.shading.at("lambert_sharpness"), "2.2925");

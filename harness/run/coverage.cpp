@@ -9,8 +9,8 @@
 namespace vsglbench {
 namespace {
 
-// How often each texel of an image is counted, from rectangles of texels that each add an amount: differences, summed
-// up once.
+// How often each texel of an image is counted, from rectangles of texels that each add an amount:
+// differences, summed up once.
 class Counts {
  public:
   Counts(uint32_t width, uint32_t height)
@@ -61,7 +61,8 @@ std::array<Tap, 2> taps(uint32_t base, uint32_t level, double position) {
   return {tap(lower, 1 - f), tap(upper, f)};
 }
 
-// The mean over a texel's block counts `times` times in all: each of its base texels, times over their number.
+// The mean over a texel's block counts `times` times in all: each of its base texels, times over their
+// number.
 void add_level(Counts* counts, const glm::vec4& kernel, uint32_t level, double times, glm::uvec2 size) {
   for (const Tap& y : taps(size.y, level, kernel.y)) {
     for (const Tap& x : taps(size.x, level, kernel.x)) {
@@ -136,7 +137,8 @@ Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, ui
   Counts counts(width, height);
   for (const glm::vec4& kernel : kernels) {
     if (!(kernel.z > 0)) continue;
-    const double level = std::clamp(std::log2(double(kernel.z)), 0.0, double(top)), area = std::exp2(2 * level);
+    const double level = std::clamp(std::log2(double(kernel.z)), 0.0, double(top)),
+                 area = std::exp2(2 * level);
     const auto lower = static_cast<uint32_t>(level);
     add_level(&counts, kernel, lower, area * (1 - (level - lower)), {width, height});
     add_level(&counts, kernel, std::min(lower + 1, top), area * (level - lower), {width, height});

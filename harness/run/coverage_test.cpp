@@ -51,7 +51,8 @@ TEST(Coverage, BetweenLevelsBothCount) {
 // Rows and columns that differ: a mistake of axis shows.
 TEST(Coverage, WeighsTexelsByThePdf) {
   const std::vector<float> pdf = {1, 2, 0, 4, 8, 0};  // 3 × 2 texels
-  const Coverage c = cover_kernels({{0.5, 0.5, 1, 0}, {0.5, 1.5, 1, 0}, {0.5, 1.5, 1, 0}, {1.5, 0.5, 1, 0}}, 3, 2, pdf);
+  const Coverage c =
+      cover_kernels({{0.5, 0.5, 1, 0}, {0.5, 1.5, 1, 0}, {0.5, 1.5, 1, 0}, {1.5, 0.5, 1, 0}}, 3, 2, pdf);
   EXPECT_NEAR(*c.pdf_overlap, 4.0 / 15, kTight);
   EXPECT_NEAR(*c.pdf_gap, 8.0 / 15, kTight);
   EXPECT_NEAR(c.gap, 3.0 / 6, kTight);

@@ -8,13 +8,18 @@ namespace vsglbench {
 namespace {
 
 // Of `seeds` frames without visibility.
-std::vector<double> flux(const std::string& scene, const std::string& method, const Json& own, Importance importance,
-                         uint32_t seeds) {
+std::vector<double> flux(const std::string& scene, const std::string& method, const Json& own,
+                         Importance importance, uint32_t seeds) {
   Laboratory lab(scene);
   const MethodInfo& info = load_method(method, Laboratory::device().info());
   Frame frame(lab.stage, info, resolve_parameters(info, own),
-              {.width = 96, .height = 54, .rsm = 64, .lights = 256, .importance_lights = 256,
-               .visibility = Visibility::none, .importance = importance},
+              {.width = 96,
+               .height = 54,
+               .rsm = 64,
+               .lights = 256,
+               .importance_lights = 256,
+               .visibility = Visibility::none,
+               .importance = importance},
               nullptr);
   std::vector<double> ratios;
   for (uint32_t seed = 0; seed < seeds; ++seed) {
@@ -28,14 +33,16 @@ std::vector<double> flux(const std::string& scene, const std::string& method, co
 TEST(Flux, AllTexelsCarryWhatTheyReflect) {
   for (const char* scene : {"cornell", "ring514", "colonnade"}) {
     for (const char* shading : {"vsgl16", "exact"})
-      EXPECT_NEAR(flux(scene, "all-texels", {{"shading", shading}}, Importance::own, 1)[0], 1, 1e-5) << scene << shading;
+      EXPECT_NEAR(flux(scene, "all-texels", {{"shading", shading}}, Importance::own, 1)[0], 1, 1e-5)
+          << scene << shading;
   }
 }
 
 // Drawn in proportion to what it reflects, each texel stands for the same power.
 TEST(Flux, LightsDrawnByReflectedPowerKeepItInEverySet) {
   for (const char* method : {"vpl", "mfis"}) {
-    for (const double r : flux("cornell", method, Json::object(), Importance::flux, 4)) EXPECT_NEAR(r, 1, 1e-3) << method;
+    for (const double r : flux("cornell", method, Json::object(), Importance::flux, 4))
+      EXPECT_NEAR(r, 1, 1e-3) << method;
   }
 }
 

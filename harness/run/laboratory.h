@@ -14,12 +14,10 @@
 
 namespace vsglbench {
 
-
 // One scene, its device data and its references, shared by the tests below.
 class Laboratory {
  public:
   static constexpr uint32_t kWidth = 96, kHeight = 54;
-
 
   explicit Laboratory(const std::string& name)
       : scene(load_scene(name, {data_root() / "scenes", {}})),

@@ -111,9 +111,10 @@ TEST_F(PluginFault, AClosedPipeAndAnOrphanAreNotWaitedFor) {
 // --- kernels that give a plausible picture, or used to ---
 
 TEST_F(PluginFault, LightsOnePlaceTooFarAreRefused) {
-  expect_refusals({{{"method", "off-by-one"}}}, "refused",
-                  {"1 of 8 lights of generate.rsm were not written, the first is light 0, and byte 0 past the end of "
-                   "lights.rsm (640 bytes) was written"});
+  expect_refusals(
+      {{{"method", "off-by-one"}}}, "refused",
+      {"1 of 8 lights of generate.rsm were not written, the first is light 0, and byte 0 past the end of "
+       "lights.rsm (640 bytes) was written"});
 }
 
 // lavapipe cuts the loop off and goes on with what there is; on a GPU the device is lost.
@@ -130,8 +131,9 @@ TEST_F(PluginFault, APushBlockOfAnotherSizeIsRefused) {
 
 TEST_F(PluginFault, LightsOfMoreThanTheMethodStatesAreRefused) {
   config_["N"] = 256;  // of 256 texels
-  expect_refusals({{{"method", "too-bright"}}}, "refused",
-                  {"× the texels' power (geometric mean of 1 seeds), and it states at most 1.05 in the mean"});
+  expect_refusals(
+      {{{"method", "too-bright"}}}, "refused",
+      {"× the texels' power (geometric mean of 1 seeds), and it states at most 1.05 in the mean"});
 }
 
 // Of a black scene only the generation can be measured: there is no picture to score.

@@ -63,8 +63,10 @@ ReferenceInfo describe(const Scene& scene, const ReferenceResult& r) {
 
 std::string end_of_search(const ReferenceResult& result, const ReferenceParameters& p) {
   if (p.floor == 0) return "";
-  return fmt::format(", {} {} %", result.ended_by == ReferenceEnd::floor ? "reached" : "ended before", p.floor) +
-         (result.ended_by == ReferenceEnd::time_limit ? fmt::format(" by the limit of {} s", p.time_limit) : "");
+  return fmt::format(", {} {} %", result.ended_by == ReferenceEnd::floor ? "reached" : "ended before",
+                     p.floor) +
+         (result.ended_by == ReferenceEnd::time_limit ? fmt::format(" by the limit of {} s", p.time_limit)
+                                                      : "");
 }
 
 const ReferenceResult& References::get(const Case& c) { return *slot(c).result; }

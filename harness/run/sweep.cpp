@@ -28,7 +28,8 @@ std::vector<std::string> case_keys() {
   return keys;
 }
 
-// Keys that mean nothing to VPLs, which have exact BRDFs; and those that mean nothing where no frame is shaded.
+// Keys that mean nothing to VPLs, which have exact BRDFs; and those that mean nothing where no frame is
+// shaded.
 bool is_vsgl_key(const std::string& key) { return is_shading_key(key) || key == "bias_reduction"; }
 bool is_frame_key(const std::string& key) {
   return is_vsgl_key(key) || key == "visibility" || key == "importance" || key == "progressive";
@@ -108,8 +109,8 @@ class Entry {
       return parameters.contains(item.key()) && parameters.at(item.key()) == item.value();
     });
   }
-  // A parameter of the method that bears the name of a shading key is read in its place; a choice that the key
-  // has, too, counts as that.
+  // A parameter of the method that bears the name of a shading key is read in its place; a choice that the
+  // key has, too, counts as that.
   bool is_own(const std::string& key) const {
     return std::ranges::any_of(method_.parameters, [&](const auto& p) { return p.name == key; });
   }
@@ -158,12 +159,12 @@ class Entry {
 
   void add_axes() {
     for (const auto& key : case_keys()) {
-      const bool read = is_own(key)         ? false
-                        : key == "N"        ? method_.takes_light_count
+      const bool read = is_own(key)                                     ? false
+                        : key == "N"                                    ? method_.takes_light_count
                         : is_pdf_key(key) && !method_.takes_light_count ? false
-                        : is_vsgl_key(key)  ? reads_shading()
-                        : is_frame_key(key) ? sees_
-                                            : true;
+                        : is_vsgl_key(key)                              ? reads_shading()
+                        : is_frame_key(key)                             ? sees_
+                                                                        : true;
       if (read) add_axis(key, true);
     }
     for (const auto& parameter : method_.parameters) add_axis(parameter.name, false);
@@ -173,9 +174,9 @@ class Entry {
     }
   }
 
-  // From the entry, its preset, the config's own lists, their preset, or the default: the first that has the key. A
-  // method's own parameter has no list in the config, its default in the method, and of a preset only a name that is not
-  // a key of every case: `shading` of all-texels stays exact.
+  // From the entry, its preset, the config's own lists, their preset, or the default: the first that has the
+  // key. A method's own parameter has no list in the config, its default in the method, and of a preset only
+  // a name that is not a key of every case: `shading` of all-texels stays exact.
   void add_axis(const std::string& key, bool of_every_case) {
     const Json& root = doc_.root();
     const bool given = of_every_case || !case_defaults().contains(key);  // by presets
@@ -248,9 +249,12 @@ class Entry {
 
   // The disk of [VSGL14] has r² = 2σ² of the three-dimensional variance: halved, it would be another disk's.
   void check_variance(const Shading& shading) const {
-    if (shading.empty() || chosen(shading, "shading") != "vsgl14" || chosen(shading, "variance") != "disk") return;
-    throw doc_.error(at_, "makes a case of shading vsgl14 with variance disk, which vsgl14 has no use for: its r² = 2σ² "
-                          "takes the 3d variance; sweep the two in entries of their own");
+    if (shading.empty() || chosen(shading, "shading") != "vsgl14" || chosen(shading, "variance") != "disk")
+      return;
+    throw doc_.error(
+        at_,
+        "makes a case of shading vsgl14 with variance disk, which vsgl14 has no use for: its r² = 2σ² "
+        "takes the 3d variance; sweep the two in entries of their own");
   }
 
   // Whether the key is one that every case has; then its value is in `frame`.
@@ -344,8 +348,13 @@ class Entry {
 
 const Json& case_defaults() {
   static const Json defaults = [] {
-    Json all = {{"N", 256},           {"rsm", 256},        {"importance_lights", 2048}, {"visibility", "exact"},
-                {"importance", "own"}, {"progressive", 1}, {"bias_reduction", 0}};
+    Json all = {{"N", 256},
+                {"rsm", 256},
+                {"importance_lights", 2048},
+                {"visibility", "exact"},
+                {"importance", "own"},
+                {"progressive", 1},
+                {"bias_reduction", 0}};
     for (const ShadingAxis& axis : shading_axes()) all[axis.key] = axis.choices.front();
     return all;
   }();

@@ -60,9 +60,9 @@ TEST_P(ShadowMapError, FallsFromRandomPointsToChosenOnes) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShadowMapError, ::testing::Values("cornell", "ring514", "colonnade"));
 
-// More texels and points come nearer to the truth; without any test at all it is far. What is tested is what stands
-// between a light and a pixel: with `light_clearance` 0, where the mean of a curved cluster lies just below the surface that
-// it is of, no map is fine enough to find that out for every pixel. Points that know
+// More texels and points come nearer to the truth; without any test at all it is far. What is tested is what
+// stands between a light and a pixel: with `light_clearance` 0, where the mean of a curved cluster lies just
+// below the surface that it is of, no map is fine enough to find that out for every pixel. Points that know
 // nothing of the light (ism) do not: those near it stay few.
 TEST(ShadowMaps, ApproachExactVisibility) {
   Comparison cornell("cornell", "mfis", "sigma");

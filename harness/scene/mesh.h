@@ -32,8 +32,8 @@ bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 // Revisited").
 glm::vec3 any_orthogonal(const glm::vec3& n);
 
-// Collects meshes in double precision, moved by scene->offset, then writes them into a scene as float offsets from
-// the bounds' centre.
+// Collects meshes in double precision, moved by scene->offset, then writes them into a scene as float offsets
+// from the bounds' centre.
 class MeshCollector {
  public:
   explicit MeshCollector(Scene* scene) : scene_(scene) {}

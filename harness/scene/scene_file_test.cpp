@@ -201,7 +201,8 @@ TEST(ShippedScenes, AllAreListed) {
     EXPECT_FALSE(info.description.empty());
     EXPECT_EQ(info.asset.empty(), info.get_it.empty()) << info.name;
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"colonnade", "conference", "cornell", "cornell-glossy", "ring514", "sponza"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"colonnade", "conference", "cornell", "cornell-glossy",
+                                             "ring514", "sponza"}));
 }
 
 TEST(ShippedScenes, AbsentAssetSaysWhichAndWhere) {

@@ -1,5 +1,5 @@
-// Anisotropic spherical Gaussians max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²) (Xu et al. 2013), by the components of a
-// direction in the frame (x,y,z). An SG of sharpness λ is one of bandwidths λ/2.
+// Anisotropic spherical Gaussians max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²) (Xu et al. 2013), by the components of
+// a direction in the frame (x,y,z). An SG of sharpness λ is one of bandwidths λ/2.
 #ifndef VSGLBENCH_ASG_GLSL
 #define VSGLBENCH_ASG_GLSL
 

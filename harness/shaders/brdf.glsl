@@ -11,9 +11,9 @@ struct Surface {
   vec3 normal;            // shading
   vec3 geometric_normal;  // on the viewer's side
   vec3 view;
-  vec3 diffuse;           // Rd
+  vec3 diffuse;  // Rd
   vec3 f0;
-  float ndf;              // > 0: GGX alpha; < 0: minus the Phong exponent
+  float ndf;  // > 0: GGX alpha; < 0: minus the Phong exponent
 };
 
 // Sharpness of the normal distribution as an SG: GGX 2/α², Phong n [VSGL15s App. A].

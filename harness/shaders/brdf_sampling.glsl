@@ -1,5 +1,5 @@
-// Directions drawn by a surface's BRDF: a mixture of the cosine and of the half vector's D(h) n·h (Walter et al.
-// 2007), in the shares of their reflectances.
+// Directions drawn by a surface's BRDF: a mixture of the cosine and of the half vector's D(h) n·h (Walter et
+// al. 2007), in the shares of their reflectances.
 #ifndef VSGLBENCH_BRDF_SAMPLING_GLSL
 #define VSGLBENCH_BRDF_SAMPLING_GLSL
 

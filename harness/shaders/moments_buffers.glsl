@@ -8,8 +8,12 @@
 layout(set = 0, binding = MOMENTS_BINDING + 0, std430) buffer Moments0 { vec4 moments0[]; };  // Pd, variance
 layout(set = 0, binding = MOMENTS_BINDING + 1, std430) buffer Moments1 { vec4 moments1[]; };  // Ps
 layout(set = 0, binding = MOMENTS_BINDING + 2, std430) buffer Moments2 { vec4 moments2[]; };  // mean
-layout(set = 0, binding = MOMENTS_BINDING + 3, std430) buffer Moments3 { vec4 moments3[]; };  // diffuse direction, q
-layout(set = 0, binding = MOMENTS_BINDING + 4, std430) buffer Moments4 { vec4 moments4[]; };  // specular direction, q
+layout(set = 0, binding = MOMENTS_BINDING + 3, std430) buffer Moments3 {
+  vec4 moments3[];
+};  // diffuse direction, q
+layout(set = 0, binding = MOMENTS_BINDING + 4, std430) buffer Moments4 {
+  vec4 moments4[];
+};  // specular direction, q
 
 Moments load_moments(uint i) {
   vec4 a = moments0[i], b = moments1[i], c = moments2[i], d = moments3[i], e = moments4[i];

@@ -27,10 +27,11 @@ float covered(uvec2 base, uint level, uvec2 t) {
   return float(to.x - from.x) * float(to.y - from.y);
 }
 
-// Weight of texel `upper` against its lower neighbour at `f` of the way between their centres, on one axis. The last
-// texel of a level may cover only a part c of a block. Summed over all base texels' centres, a texel's weight must be
-// what it covers, or the mean over positions is not the mean over texels. Linear weights give it that for c >= 1/2;
-// below they would give (1/2 + c)²/2, so the last texel's are scaled by c over that.
+// Weight of texel `upper` against its lower neighbour at `f` of the way between their centres, on one axis.
+// The last texel of a level may cover only a part c of a block. Summed over all base texels' centres, a
+// texel's weight must be what it covers, or the mean over positions is not the mean over texels. Linear
+// weights give it that for c >= 1/2; below they would give (1/2 + c)²/2, so the last texel's are scaled by c
+// over that.
 float upper_weight(uint base, uint level, uint upper, float f) {
   float c = float(min((upper + 1u) << level, base) - (upper << level)) / float(1u << level);
   return c < 0.5 ? f * 2.0 * c / ((0.5 + c) * (0.5 + c)) : f;
@@ -46,7 +47,8 @@ Taps bilinear_taps(uvec2 base, uint level, vec2 position) {
   vec2 c = clamp(position / float(1u << level) - 0.5, vec2(0.0), vec2(size - 1u));
   uvec2 lo = uvec2(c);
   uvec2 hi = min(lo + 1u, size - 1u);
-  vec2 f = vec2(upper_weight(base.x, level, hi.x, c.x - float(lo.x)), upper_weight(base.y, level, hi.y, c.y - float(lo.y)));
+  vec2 f = vec2(upper_weight(base.x, level, hi.x, c.x - float(lo.x)),
+                upper_weight(base.y, level, hi.y, c.y - float(lo.y)));
   uint offset = level_offset(base, level);
   Taps taps;
   taps.index[0] = offset + lo.y * size.x + lo.x;

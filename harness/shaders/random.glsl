@@ -13,8 +13,8 @@ uint random_hash(uvec2 x) { return random_hash(x.x + random_hash(x.y)); }
 // In [0,1).
 float unit_float(uint word) { return float(word >> 8u) * 5.9604645e-8; }
 
-// Point j of a two-dimensional Kronecker sequence (Roberts' R2), shifted by the words of `seed`: well spread for
-// every number of points.
+// Point j of a two-dimensional Kronecker sequence (Roberts' R2), shifted by the words of `seed`: well spread
+// for every number of points.
 vec2 sequence_point(uint j, uvec2 seed) {
   uvec2 word = seed + j * uvec2(3242174889u, 2447445414u);  // 2^32/ρ, 2^32/ρ², ρ³ = ρ+1
   return vec2(unit_float(word.x), unit_float(word.y));

@@ -1,4 +1,5 @@
-// The shading point as VSGLs see it: its specular lobe as an anisotropic SG [VSGL15s App. B, MFIS16 App. C.2].
+// The shading point as VSGLs see it: its specular lobe as an anisotropic SG [VSGL15s App. B, MFIS16 App.
+// C.2].
 #ifndef VSGLBENCH_RECEIVER_GLSL
 #define VSGLBENCH_RECEIVER_GLSL
 
@@ -7,14 +8,16 @@
 #include "sg.glsl"
 #include "types.h"
 
-// What the specular lobe is: 0 asg, an anisotropic SG; 1 sg, the BRDF itself with its NDF widened by the light's SG.
+// What the specular lobe is: 0 asg, an anisotropic SG; 1 sg, the BRDF itself with its NDF widened by the
+// light's SG.
 #ifndef RECEIVER_LOBE
 #define RECEIVER_LOBE 0
 #endif
 
 // The receiver's specular lobe as an anisotropic SG [MFIS16 App. C.2; Xu et al. 2013]:
-// C(ω) max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²), x in the plane of incidence, z the mirror direction. Turning ω by δ turns
-// the half vector by δ/2 in that plane and by δ/(2 n·v) across it, so ηx = λh/8 and ηy = λh/(8 (n·v)²).
+// C(ω) max(ω·z,0) exp(-ηx(ω·x)² - ηy(ω·y)²), x in the plane of incidence, z the mirror direction. Turning ω
+// by δ turns the half vector by δ/2 in that plane and by δ/(2 n·v) across it, so ηx = λh/8 and ηy = λh/(8
+// (n·v)²).
 struct Receiver {
   Surface surface;
   vec3 x, y, z;
@@ -29,7 +32,8 @@ Receiver make_receiver(Surface s) {
   r.z = reflect(-s.view, s.normal);
   vec3 perpendicular = cross(s.normal, s.view);  // no plane of incidence when looking straight down
   vec3 any = abs(s.normal.x) < 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-  r.y = dot(perpendicular, perpendicular) > 1e-10 ? normalize(perpendicular) : normalize(cross(s.normal, any));
+  r.y =
+      dot(perpendicular, perpendicular) > 1e-10 ? normalize(perpendicular) : normalize(cross(s.normal, any));
   r.x = cross(r.y, r.z);
   float sharpness = ndf_sharpness(s.ndf);
   r.eta_x = sharpness / 8.0;
@@ -45,11 +49,13 @@ float receiver_asg(Receiver r, Sg sg) {
   return r.peak * asg_product(local, sg.sharpness, r.eta_x, r.eta_y);
 }
 
-// The same by filtering the NDF: over the half vector the light's SG has the sharpness 4 (v·h) λ (the Jacobian of the
-// reflection, 1/(4 v·h), is taken as equal in both directions, where it is 1/4 and 1/(4 (v·h)²)), and widens D. A Phong lobe of exponent n becomes one of
-// n λ'/(n+λ'). GGX's α² grows by 2/λ' in projected space, where α²/(1-α²) stands for α² and no lobe is wider than
-// the hemisphere (Tokuyoshi and Kaplanyan 2021). As λ → ∞ it is D(h) itself; under wide lights it is too bright, by up to
-// 50 % (harness/measure/approximations.csv, `filtered`), more at grazing views. Above a sharpness of 2^41 nothing widens.
+// The same by filtering the NDF: over the half vector the light's SG has the sharpness 4 (v·h) λ (the
+// Jacobian of the reflection, 1/(4 v·h), is taken as equal in both directions, where it is 1/4 and 1/(4
+// (v·h)²)), and widens D. A Phong lobe of exponent n becomes one of n λ'/(n+λ'). GGX's α² grows by 2/λ' in
+// projected space, where α²/(1-α²) stands for α² and no lobe is wider than the hemisphere (Tokuyoshi and
+// Kaplanyan 2021). As λ → ∞ it is D(h) itself; under wide lights it is too bright, by up to 50 %
+// (harness/measure/approximations.csv, `filtered`), more at grazing views. Above a sharpness of 2^41 nothing
+// widens.
 float receiver_filtered(Receiver r, Sg sg, float vh) {
   float wide = max(4.0 * vh * sg.sharpness, 1e-6);
   vec3 h = safe_normalize(sg.axis + r.surface.view, r.surface.normal);

@@ -1,7 +1,7 @@
-// Spherical Gaussians G(ω;ξ,λ) = exp(λ(ω·ξ-1)) in cancellation-free forms. λ in [0,2^41] unless said otherwise.
-// Error bounds are relative, in single precision, against the same formula in double precision on the same
-// inputs; harness/measure/sg_evaluation_test.cpp holds them, and shows that the naive forms break them.
-// Sources: [MFIS16] App. A–C, [VSGL15s], Banerjee et al. 2005 (vMF), Toksvig 2005.
+// Spherical Gaussians G(ω;ξ,λ) = exp(λ(ω·ξ-1)) in cancellation-free forms. λ in [0,2^41] unless said
+// otherwise. Error bounds are relative, in single precision, against the same formula in double precision on
+// the same inputs; harness/measure/sg_evaluation_test.cpp holds them, and shows that the naive forms break
+// them. Sources: [MFIS16] App. A–C, [VSGL15s], Banerjee et al. 2005 (vMF), Toksvig 2005.
 #ifndef VSGLBENCH_SG_GLSL
 #define VSGLBENCH_SG_GLSL
 
@@ -25,8 +25,8 @@ float sg_value(vec3 direction, Sg sg) {
   return exp_accurate(-0.5 * sg.sharpness * dot(d, d));
 }
 
-// (1-e^{-2λ})/λ, so that A(λ) = 2π times this. Error < 7e-7 for λ >= 0, with the device's own exp: below λ = ½,
-// where the difference would cancel, by a Chebyshev fit of (1-e^{-y})/y.
+// (1-e^{-2λ})/λ, so that A(λ) = 2π times this. Error < 7e-7 for λ >= 0, with the device's own exp: below λ =
+// ½, where the difference would cancel, by a Chebyshev fit of (1-e^{-y})/y.
 float sg_integral_over_2pi(float sharpness) {
   float y = 2.0 * sharpness;
   float fit = 0.008275504844 + y * (-0.001300774958 + y * 0.0001290763102);
@@ -41,9 +41,9 @@ float sg_integral(float sharpness) { return 2.0 * PI * sg_integral_over_2pi(shar
 float vmf_normalization(float sharpness) { return 1.0 / sg_integral(sharpness); }
 
 // Product of two SGs: another SG times exp(log_amplitude), with log_amplitude = λ-λ1-λ2 evaluated as
-// -λ1λ2|ξ1-ξ2|²/(λ+λ1+λ2) [light-transport §2]: error < 1e-6. λ1, λ2 in [0,2^60], so that no square overflows.
-// Where ξ1 = -ξ2 and λ1 = λ2 nothing is left, and the axis is ξ1. The product's own sharpness has an error
-// < 4e-7 (λ1+λ2)/λ.
+// -λ1λ2|ξ1-ξ2|²/(λ+λ1+λ2) [light-transport §2]: error < 1e-6. λ1, λ2 in [0,2^60], so that no square
+// overflows. Where ξ1 = -ξ2 and λ1 = λ2 nothing is left, and the axis is ξ1. The product's own sharpness has
+// an error < 4e-7 (λ1+λ2)/λ.
 Sg sg_product(vec3 axis1, float sharpness1, vec3 axis2, float sharpness2, out float log_amplitude) {
   vec3 sum = sharpness1 * axis1 + sharpness2 * axis2;
   vec3 difference = axis1 - axis2;
@@ -56,8 +56,8 @@ Sg sg_product(vec3 axis1, float sharpness1, vec3 axis2, float sharpness2, out fl
 // Toksvig: mean direction length r = λ/(λ+1) is carried as q = 1-r, which keeps its digits for sharp lobes.
 // Error < 2e-7.
 float toksvig_complement(float sharpness) { return 1.0 / (sharpness + 1.0); }
-// λ = r/(1-r) = (1-q)/q [MFIS16 App. B.1]. q >= 2^-41 bounds λ. Absolute error < 4e-7 (1+λ): a wide lobe's λ is
-// as good as q says.
+// λ = r/(1-r) = (1-q)/q [MFIS16 App. B.1]. q >= 2^-41 bounds λ. Absolute error < 4e-7 (1+λ): a wide lobe's λ
+// is as good as q says.
 float toksvig_sharpness(float complement) {
   float q = clamp(complement, 4.5474735e-13, 1.0);
   return (1.0 - q) / q;
@@ -74,14 +74,17 @@ float banerjee_sharpness(float complement) {
 // 1-r of the vMF lobe of concentration κ, r = coth κ - 1/κ [Banerjee et al. 2005]. Error < 5e-7 for κ >= 0.
 float vmf_complement(float sharpness) {
   float k2 = sharpness * sharpness;
-  float series = 1.0 / 3.0 - k2 * (1.0 / 45.0 - k2 * (2.0 / 945.0 - k2 * (1.0 / 4725.0 -
-                 k2 * (2.0 / 93555.0 - k2 * (2.164404e-6 - k2 * 2.192595e-7)))));
+  float series =
+      1.0 / 3.0 -
+      k2 * (1.0 / 45.0 -
+            k2 * (2.0 / 945.0 -
+                  k2 * (1.0 / 4725.0 - k2 * (2.0 / 93555.0 - k2 * (2.164404e-6 - k2 * 2.192595e-7)))));
   if (sharpness < 1.0) return 1.0 - sharpness * series;
   return 1.0 / sharpness + 2.0 * exp_accurate(-2.0 * sharpness) / expm1(-2.0 * sharpness);
 }
 
-// Inverse of banerjee_sharpness: the root q in (0,1] of (1-q)(2+q(2-q)) = κ q(2-q), by Newton's method from the vMF
-// lobe's own 1-r, which is within 5 % of it. Error < 1e-6 for κ in [0,2^41].
+// Inverse of banerjee_sharpness: the root q in (0,1] of (1-q)(2+q(2-q)) = κ q(2-q), by Newton's method from
+// the vMF lobe's own 1-r, which is within 5 % of it. Error < 1e-6 for κ in [0,2^41].
 float banerjee_complement(float sharpness) {
   float q = vmf_complement(sharpness);
   for (int i = 0; i < 3; ++i) {

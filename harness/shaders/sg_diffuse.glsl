@@ -1,7 +1,7 @@
 // The clamped cosine against a normalised SG: L(v,κ) = ∫G max(ω·n,0) dω / ∫G dω, by one of five formulas.
 // DIFFUSE_KERNEL: 0 cosine, 1 pettineo-hill, 2 meder-bruederlin, 3 tokuyoshi2022, 4 tokuyoshi2024.
-// Largest absolute errors against the integral stand with each; L is in [0,1], and so is every formula's value
-// here but pettineo-hill's.
+// Largest absolute errors against the integral stand with each; L is in [0,1], and so is every formula's
+// value here but pettineo-hill's.
 #ifndef VSGLBENCH_SG_DIFFUSE_GLSL
 #define VSGLBENCH_SG_DIFFUSE_GLSL
 
@@ -57,9 +57,9 @@ float expm1_over_x_derivative(float x) {
   return x > -0.05 ? series : (exp_accurate(x) - expm1_over_x(x)) / x;
 }
 
-// The clamped cosine as (α+β) e^λ G(ω;n,λ) - α on the upper hemisphere [SGL22 §2]: α(p-q) + βp, where p and q are
-// the hemispherical integrals of the two SGs times the vMF lobe. With λ' and c' of the SG product, d = λ'-κ,
-// R = A(λ')/A(κ), and W = ½ + ½ σ tanh(κ/2) the share of the hemisphere,
+// The clamped cosine as (α+β) e^λ G(ω;n,λ) - α on the upper hemisphere [SGL22 §2]: α(p-q) + βp, where p and q
+// are the hemispherical integrals of the two SGs times the vMF lobe. With λ' and c' of the SG product, d =
+// λ'-κ, R = A(λ')/A(κ), and W = ½ + ½ σ tanh(κ/2) the share of the hemisphere,
 //   p = e^d R W',  q = W,  p-q = (e^d-1) R W' + (R-1) W' + (W'-W),
 // of which no part but the last (a difference of two values of ½ at most) cancels: α = 1182 would turn the
 // rounding of p and q into an error of 2e-4 and more.
@@ -79,8 +79,8 @@ float sg_cosine(float cosine, float k, float lambda, float alpha, float beta) {
   return clamp(alpha * difference + beta * (1.0 + step) * (1.0 + growth) * share, 0.0, 1.0);
 }
 
-// Meder and Brüderlin 2018: μ = 32.7080, α = 31.7003, λ = 0.0315; β = μe^{-λ} - α. Within 0.011; unlike theirs
-// clamped (they reach 1.008, and -0.0034).
+// Meder and Brüderlin 2018: μ = 32.7080, α = 31.7003, λ = 0.0315; β = μe^{-λ} - α. Within 0.011; unlike
+// theirs clamped (they reach 1.008, and -0.0034).
 float meder_bruederlin(float cosine, float sharpness) {
   return sg_cosine(cosine, sharpness, 0.0315, 31.7003, -0.0065437963);
 }
@@ -91,10 +91,10 @@ float tokuyoshi2022(float cosine, float sharpness) {
   return sg_cosine(cosine, sharpness, 0.00084560872241480124, 1182.2467339678153, 0.0);
 }
 
-// Tokuyoshi et al. 2024, "Hierarchical Light Sampling with Accurate Spherical Gaussian Lighting", supplemental:
-// between the integrals over the upper and lower hemisphere for v = n, by that of a planar Gaussian. Within
-// 0.0013, and 1.3e-6 for κ >= 1024. Both integrals are over ∫G from the start, which spares a division by κ and
-// its error; and erfc is accurate, so f needs no least value.
+// Tokuyoshi et al. 2024, "Hierarchical Light Sampling with Accurate Spherical Gaussian Lighting",
+// supplemental: between the integrals over the upper and lower hemisphere for v = n, by that of a planar
+// Gaussian. Within 0.0013, and 1.3e-6 for κ >= 1024. Both integrals are over ∫G from the start, which spares
+// a division by κ and its error; and erfc is accurate, so f needs no least value.
 float tokuyoshi2024(float cosine, float k) {
   float t = k * sqrt(0.5 * ((k + 2.73608316) * k + 17.0212978) /
                      (((k + 4.01008267) * k + 15.2191563) * k + 76.0878963));
@@ -108,10 +108,15 @@ float tokuyoshi2024(float cosine, float k) {
   if (k < 0.5) {
     // Taylor series of (1-E(-κ))/κ and (E(-κ)-e^{-κ})/κ, errors 1e-8.
     float over = 0.5 / expm1_over_x(-2.0 * k);
-    upper = over * (1.0 / 2.0 - k * (1.0 / 6.0 - k * (1.0 / 24.0 - k * (1.0 / 120.0 - k * (1.0 / 720.0 -
-                    k * (1.0 / 5040.0 - k / 40320.0))))));
-    lower = over * e * (1.0 / 2.0 - k * (1.0 / 3.0 - k * (1.0 / 8.0 - k * (1.0 / 30.0 - k * (1.0 / 144.0 -
-                        k * (1.0 / 840.0 - k / 5760.0))))));
+    upper =
+        over *
+        (1.0 / 2.0 -
+         k * (1.0 / 6.0 -
+              k * (1.0 / 24.0 - k * (1.0 / 120.0 - k * (1.0 / 720.0 - k * (1.0 / 5040.0 - k / 40320.0))))));
+    lower = over * e *
+            (1.0 / 2.0 -
+             k * (1.0 / 3.0 -
+                  k * (1.0 / 8.0 - k * (1.0 / 30.0 - k * (1.0 / 144.0 - k * (1.0 / 840.0 - k / 5760.0))))));
   } else {
     float whole = -m * (2.0 + m), mean = -m / k;
     upper = (1.0 - mean) / whole;

@@ -58,8 +58,9 @@ glm::dvec3 shade_vsgl(const Surface& surface, const gpu::Vsgl& light, const Vsgl
 
 // Consistent bias reduction [VSGL14 §3.3]. A light is cancelled where η_p < α 4π/|Ω|, which is where α is
 // above cancelling_alpha() = η_p |Ω|/4π. η_p, the sharpness of the sharpest product of a lobe of the receiver
-// (an ASG of bandwidth η has 2η) and one of the light's, is the sum of the two; a diffuse lobe of either has 0. The
-// same floors as above; the disk has r² = 2σ² of the variance in three dimensions, whatever `disk` says.
+// (an ASG of bandwidth η has 2η) and one of the light's, is the sum of the two; a diffuse lobe of either has
+// 0. The same floors as above; the disk has r² = 2σ² of the variance in three dimensions, whatever `disk`
+// says.
 double cancelling_alpha(const Surface& surface, const gpu::Vsgl& light);
 // What it is shaded with then: ρ(ω_i) |Ω|/(πr²) with exact BRDFs, `texel` at the light's end.
 glm::dvec3 shade_cancelled(const Surface& surface, const gpu::Vsgl& light, const gpu::Vpl& texel);

@@ -17,16 +17,16 @@ using uint = uint32_t;
 
 // A virtual spherical Gaussian light [MFIS16 App. B]: both lobes share mean and variance.
 struct Vsgl {
-  vec3 mean;              // μ_v, metres
-  float variance;         // σ_v², metres², 3-D: E|y-μ|²
-  vec3 diffuse;           // c_v of the diffuse lobe, W/sr
+  vec3 mean;       // μ_v, metres
+  float variance;  // σ_v², metres², 3-D: E|y-μ|²
+  vec3 diffuse;    // c_v of the diffuse lobe, W/sr
   float diffuse_sharpness;
-  vec3 diffuse_axis;      // unit; the power-weighted mean normal
-  float level;            // mip level of the kernel, for pictures and statistics; -1 where there is none
-  vec3 specular;          // c_v of the specular lobe, W/sr
+  vec3 diffuse_axis;  // unit; the power-weighted mean normal
+  float level;        // mip level of the kernel, for pictures and statistics; -1 where there is none
+  vec3 specular;      // c_v of the specular lobe, W/sr
   float specular_sharpness;
-  vec3 specular_axis;     // unit
-  float power;            // luminance of the reflected power of both lobes, W; 0 = no light
+  vec3 specular_axis;  // unit
+  float power;         // luminance of the reflected power of both lobes, W; 0 = no light
 };
 
 // A virtual point light with its exact BRDF [VSGL14 Eq. 1]; one with a radius is a virtual spherical light
@@ -44,23 +44,23 @@ struct Vpl {
   float samples;          // of a virtual spherical light seen under a half angle of π/2
   vec3 diffuse;           // Rd
   float unused0;
-  vec3 f0;                // F0
+  vec3 f0;  // F0
   float unused1;
 };
 
 // What emits into a half: the primary light (RSM), or the eye (G-buffer; importance 1/pixels each).
 struct Emitter {
   vec3 position;
-  uint perspective;   // 0: orthographic along `forward`
+  uint perspective;  // 0: orthographic along `forward`
   vec3 forward;
-  uint width;         // texels
+  uint width;  // texels
   vec3 right;
   uint height;
   vec3 up;
   float footprint_cosine;  // footprints are measured at no more grazing an angle than this cosine
-  vec2 extent;        // tangents of the half angles, or half sizes in metres
-  vec3 power;         // W/sr (perspective) or W/m² (orthographic); unused where importance = 1
-  uint importance;    // 1: every texel emits 1/(width height)
+  vec2 extent;             // tangents of the half angles, or half sizes in metres
+  vec3 power;              // W/sr (perspective) or W/m² (orthographic); unused where importance = 1
+  uint importance;         // 1: every texel emits 1/(width height)
 };
 
 // One draw of the rasteriser.
@@ -73,7 +73,7 @@ struct DrawPush {
   float specular;
   float alpha_cutoff;
   float normal_scale;
-  uint textures;      // bit 0 base colour, bit 1 metallic-roughness, bit 2 normal
+  uint textures;        // bit 0 base colour, bit 1 metallic-roughness, bit 2 normal
   uint first_triangle;  // of this draw, for the face normals
 };
 

@@ -6,8 +6,8 @@
 #include "types.h"
 
 Surface vpl_surface(Vpl light) {
-  return Surface(light.position, light.normal, light.geometric_normal, light.incident, light.diffuse, light.f0,
-                 light.ndf);
+  return Surface(light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
+                 light.f0, light.ndf);
 }
 
 // ρ(ω) = Φ f(x1) f(x2) cos cos, ω from the surface to the light [VSGL14 §2].
@@ -15,8 +15,8 @@ vec3 vpl_rho(Surface s, Vpl light, vec3 direction) {
   return light.flux * brdf_cosine(vpl_surface(light), -direction) * brdf_cosine(s, direction);
 }
 
-// ρ/d². Where the light has a clamp, the geometry term cos cos/d² counts as no more than that, and the luminance
-// taken away is added to `removed`.
+// ρ/d². Where the light has a clamp, the geometry term cos cos/d² counts as no more than that, and the
+// luminance taken away is added to `removed`.
 vec3 shade_vpl(Surface s, Vpl light, inout float removed) {
   vec3 to_light = light.position - s.position;
   float distance2 = dot(to_light, to_light);

@@ -1,5 +1,5 @@
-// One VSGL at one surface by the first form of the model [VSGL14 §3.1]: ∫ρ(ω)V(ω)dω / (πr²) with the disk's visibility
-// as an SG, V ≈ 2 G(ω; ω_i, 4π/|Ω|), cosines pulled out of the integral, and r² = 2σ².
+// One VSGL at one surface by the first form of the model [VSGL14 §3.1]: ∫ρ(ω)V(ω)dω / (πr²) with the disk's
+// visibility as an SG, V ≈ 2 G(ω; ω_i, 4π/|Ω|), cosines pulled out of the integral, and r² = 2σ².
 #ifndef VSGLBENCH_VSGL14_SHADING_GLSL
 #define VSGLBENCH_VSGL14_SHADING_GLSL
 
@@ -17,7 +17,8 @@ vec3 shade_vsgl14(Receiver r, Vsgl light, vec3 direction, float distance2, float
   Sg disk = Sg(direction, 4.0 / (per_area * radius2));  // 4π/|Ω|
   float nl = max(dot(direction, r.surface.normal), 0.0);
   float area = PI * radius2;
-  // The light's diffuse lobe has sharpness 0, and its cosine is pulled out [§3.1]: its power over π, times the cosine.
+  // The light's diffuse lobe has sharpness 0, and its cosine is pulled out [§3.1]: its power over π, times
+  // the cosine.
   float emitted = max(dot(-direction, light.diffuse_axis), 0.0);
   vec3 diffuse_light = light.diffuse * (sg_integral(light.diffuse_sharpness) * emitted / PI);
   // Its specular one is a normalised SG with the cosine within [MFIS16 Eq. 7].
@@ -25,7 +26,8 @@ vec3 shade_vsgl14(Receiver r, Vsgl light, vec3 direction, float distance2, float
   Sg s = sg_product(disk.axis, disk.sharpness, -light.specular_axis, light.specular_sharpness, log_s);
   vec3 specular_light = light.specular * exp(log_s);
   vec3 diffuse_receiver = r.surface.diffuse * (nl / PI);
-  vec3 sum = diffuse_receiver * (diffuse_light * sg_integral(disk.sharpness) + specular_light * sg_integral(s.sharpness));
+  vec3 sum = diffuse_receiver *
+             (diffuse_light * sg_integral(disk.sharpness) + specular_light * sg_integral(s.sharpness));
   sum += receiver_specular(r, disk, nl) * diffuse_light + receiver_specular(r, s, nl) * specular_light;
   return 2.0 / area * sum;
 }

@@ -12,8 +12,8 @@
 #define SHADING_MODEL 0
 #endif
 
-// Which σ² of a light counts: 0 the paper's E|y-μ|² in three dimensions; 1 half of it, of a disk's two (as the
-// author's later code has it) [light-transport §3].
+// Which σ² of a light counts: 0 the paper's E|y-μ|² in three dimensions; 1 half of it, of a disk's two (as
+// the author's later code has it) [light-transport §3].
 #ifndef VARIANCE
 #define VARIANCE 0
 #endif
@@ -34,8 +34,10 @@ vec3 shade_vsgl16(Receiver r, Vsgl light, vec3 direction, float distance2, float
   float log_d, log_s;
   Sg d = sg_product(direction, sharpness, -light.diffuse_axis, light.diffuse_sharpness, log_d);
   Sg s = sg_product(direction, sharpness, -light.specular_axis, light.specular_sharpness, log_s);
-  // The lights' own intensities come last: `scale` alone reaches 3.5e23, and what follows makes it small again.
-  return light.diffuse * shade_sg(r, scale * exp(log_d), d) + light.specular * shade_sg(r, scale * exp(log_s), s);
+  // The lights' own intensities come last: `scale` alone reaches 3.5e23, and what follows makes it small
+  // again.
+  return light.diffuse * shade_sg(r, scale * exp(log_d), d) +
+         light.specular * shade_sg(r, scale * exp(log_s), s);
 }
 
 // σ² as VARIANCE says, and no smaller than λ_σ <= 2^41 asks for: nothing overflows.
@@ -48,8 +50,11 @@ float shading_variance(Vsgl light, float distance2) {
   return max(variance, distance2 * 4.5474735e-13);
 }
 
-// Of the disk that a light is seen as, r² = 2σ² of the variance in three dimensions [VSGL14 §3.2], whatever VARIANCE says.
-float disk_radius2(Vsgl light, float distance2) { return 2.0 * max(light.variance, distance2 * 4.5474735e-13); }
+// Of the disk that a light is seen as, r² = 2σ² of the variance in three dimensions [VSGL14 §3.2], whatever
+// VARIANCE says.
+float disk_radius2(Vsgl light, float distance2) {
+  return 2.0 * max(light.variance, distance2 * 4.5474735e-13);
+}
 
 // `nothing` comes back for a light of no power.
 vec3 shade_vsgl(Receiver r, Vsgl light) {
@@ -65,9 +70,10 @@ vec3 shade_vsgl(Receiver r, Vsgl light) {
   return light.power <= 0.0 ? vec3(0.0) : sum;
 }
 
-// Consistent bias reduction [VSGL14 §3.3]: whether ρ is smooth against the disk that the light is seen as, and may be
-// pulled out of the integral: η_p < α·4π/|Ω|. η_p is the sharpness of the sharpest product of two lobes; an ASG of
-// bandwidth η has sharpness 2η, a diffuse lobe of either end 0, so that a diffuse pair always cancels.
+// Consistent bias reduction [VSGL14 §3.3]: whether ρ is smooth against the disk that the light is seen as,
+// and may be pulled out of the integral: η_p < α·4π/|Ω|. η_p is the sharpness of the sharpest product of two
+// lobes; an ASG of bandwidth η has sharpness 2η, a diffuse lobe of either end 0, so that a diffuse pair
+// always cancels.
 bool is_cancelled(Receiver r, Vsgl light, float alpha) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);

@@ -1,6 +1,6 @@
-// One virtual spherical light at one surface, without visibility [VSGL14 Eq. 2; Hašan et al. 2009]: the integral of ρ
-// over the cone of directions towards the sphere, over πr², by Monte-Carlo with three-way multiple importance
-// sampling of the cone and both BRDFs (balance heuristic, Veach 1997).
+// One virtual spherical light at one surface, without visibility [VSGL14 Eq. 2; Hašan et al. 2009]: the
+// integral of ρ over the cone of directions towards the sphere, over πr², by Monte-Carlo with three-way
+// multiple importance sampling of the cone and both BRDFs (balance heuristic, Veach 1997).
 #ifndef VSGLBENCH_VSL_SHADING_GLSL
 #define VSGLBENCH_VSL_SHADING_GLSL
 

@@ -8,8 +8,8 @@
 // Point i of N: (i/N, frac(i/φ)) + shift, modulo 1, in 32-bit fixed point so that host and device agree to
 // the bit. `step` = floor(2^32/N).
 uvec2 lattice_point(uint i, uint step, uvec2 shift) { return uvec2(i * step, i * 0x9E3779B9u) + shift; }
-// In (0,1), exact in single precision. Never 0: at 0 the first part would be chosen however small it is, and stand for
-// all the power that its p says it lacks.
+// In (0,1), exact in single precision. Never 0: at 0 the first part would be chosen however small it is, and
+// stand for all the power that its p says it lacks.
 vec2 unit_interval(uvec2 fixed_point) { return (vec2(fixed_point >> 9) + 0.5) * (1.0 / 8388608.0); }
 
 // Splits u between two sums; returns which, and rescales u to [0,1). A part of zero is never chosen.

@@ -66,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
     Faults, PlantedApproximation,
     ::testing::Values(
         Fault{"receiver", "wrong axis", "VSGLBENCH_RECEIVER_GLSL", kPeak, kSwap},
-        Fault{"receiver", "missing cosine", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine * lobe", "r.alpha) * lobe"},
+        Fault{"receiver", "missing cosine", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine * lobe",
+              "r.alpha) * lobe"},
         Fault{"receiver", "factor 2", "VSGLBENCH_RECEIVER_GLSL", kPeak, "r.peak = 2.0 * ndf_peak(s.ndf);"},
         Fault{"receiver", "squared cosine left out", "VSGLBENCH_RECEIVER_GLSL", "(8.0 * r.nv * r.nv)",
               "(8.0 * r.nv)"},

@@ -31,7 +31,8 @@ exact::VsglShading exact_shading(const Shading& shading) {
     out.model = exact::VsglModel::vsgl14;
   const auto& names = exact::diffuse_kernel_names();
   if (const auto diffuse = shading.find("diffuse"); diffuse != shading.end())
-    out.diffuse = static_cast<exact::DiffuseKernel>(std::ranges::find(names, diffuse->second) - names.begin());
+    out.diffuse =
+        static_cast<exact::DiffuseKernel>(std::ranges::find(names, diffuse->second) - names.begin());
   return out;
 }
 

@@ -1,4 +1,5 @@
-// Every texel a light: the answer without clustering. EXACT 1: VPLs with exact BRDFs; 0: each texel's SG lobes.
+// Every texel a light: the answer without clustering. EXACT 1: VPLs with exact BRDFs; 0: each texel's SG
+// lobes.
 #version 460
 #include "types.h"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -15,7 +15,8 @@ struct Space {
 };
 
 // A node of at least two lights that waits to be split. In the first rounds its slot is its place in a binary
-// heap, 1 the root's; later it is first/2 behind the heap, which no two nodes share that have two lights each.
+// heap, 1 the root's; later it is first/2 behind the heap, which no two nodes share that have two lights
+// each.
 struct Task {
   uint round;       // in which it is split
   uint begin, end;  // its samples
@@ -24,8 +25,9 @@ struct Task {
   uint budget;      // how many lights it may become
 };
 
-// An inner node. What lies below `threshold` along `axis` goes to node + 1, which has the first `left` lights;
-// the rest goes to node + left. left = 0: the node was not split, all that it holds is its first light.
+// An inner node. What lies below `threshold` along `axis` goes to node + 1, which has the first `left`
+// lights; the rest goes to node + left. left = 0: the node was not split, all that it holds is its first
+// light.
 struct Node {
   uint axis_left;  // axis | left << 3
   float threshold;

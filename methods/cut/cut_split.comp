@@ -1,7 +1,7 @@
-// Step 3, once a round: nodes of the tree are split, across the coordinate of largest variance, where that lowers
-// the squared distances to the two parts' means most (Wan et al. 1988; of PLACES places). The parts share the
-// node's lights: of a part's E = Σ|f-mean|², n lights on a surface leave about E/n, and the sum of what both
-// parts' lights leave is least where n is as √E.
+// Step 3, once a round: nodes of the tree are split, across the coordinate of largest variance, where that
+// lowers the squared distances to the two parts' means most (Wan et al. 1988; of PLACES places). The parts
+// share the node's lights: of a part's E = Σ|f-mean|², n lights on a surface leave about E/n, and the sum of
+// what both parts' lights leave is least where n is as √E.
 #version 460
 layout(set = 0, binding = 0, std430) readonly buffer From { float from[]; };
 #define SAMPLES from
@@ -163,8 +163,8 @@ void main() {
   // 2. The samples to their sides.
   uvec2 before = count_lefts(cut.lefts);
   uint middle = task.begin + before.y;
-  mat4 sums = part_samples(run, task.begin, cut, task.begin + before.x,
-                           middle + (run.begin - task.begin - before.x));
+  mat4 sums =
+      part_samples(run, task.begin, cut, task.begin + before.x, middle + (run.begin - task.begin - before.x));
   // 3. The two parts.
   if (lane != 0u) return;
   float left_error = error(sums[0], sums[1], before.y);

@@ -1,9 +1,9 @@
 // The kernels of `mfis` round centres drawn by Metropolis-Hastings (Barák et al. 2013; [MFIS16] §6, Fig. 8).
 //
-// Unlike Barák et al., who carry each chain over from one frame to the next, every frame runs each chain anew from the
-// point that `mfis` would take with the same random numbers. A centre depends on the PDF alone, and a PDF that changes a
-// little changes few decisions to accept: most centres stay exactly where they were. There is no state to warm up or to
-// lose, and a frame can be repeated.
+// Unlike Barák et al., who carry each chain over from one frame to the next, every frame runs each chain anew
+// from the point that `mfis` would take with the same random numbers. A centre depends on the PDF alone, and
+// a PDF that changes a little changes few decisions to accept: most centres stay exactly where they were.
+// There is no state to warm up or to lose, and a frame can be repeated.
 #version 460
 #include "types.h"
 #define OWN_CENTRES
@@ -18,8 +18,8 @@ uint texel_index(vec2 u) {
   return texel.y * width + texel.x;
 }
 
-// Half of the proposals lie anywhere; half near the last point, at a distance of 2^-8 to 2^-3 of the image, each
-// octave as likely. Both are symmetric, so p(y)/p(x) decides.
+// Half of the proposals lie anywhere; half near the last point, at a distance of 2^-8 to 2^-3 of the image,
+// each octave as likely. Both are symmetric, so p(y)/p(x) decides.
 vec2 propose(vec2 x, uvec2 word) {
   vec2 u = vec2(unit_float(word.x), unit_float(word.y));
   uint choice = random_hash(word.x ^ word.y);

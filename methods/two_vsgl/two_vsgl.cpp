@@ -54,12 +54,11 @@ class TwoLights : public Method {
 }  // namespace
 }  // namespace vsglbench
 
-VSGLBENCH_METHOD(MethodInfo{
-    .summary = "the whole RSM as one diffuse and one specular light",
-    .source = "Tokuyoshi 2015; [SGL22] Fig. 4",
-    .takes_light_count = false,
-    .light_count = 2,
-    .flux_bound = 1e-3,
-    .create = [](MethodContext& context, const Json&) -> std::unique_ptr<Method> {
-      return std::make_unique<TwoLights>(context);
-    }})
+VSGLBENCH_METHOD(MethodInfo{.summary = "the whole RSM as one diffuse and one specular light",
+                            .source = "Tokuyoshi 2015; [SGL22] Fig. 4",
+                            .takes_light_count = false,
+                            .light_count = 2,
+                            .flux_bound = 1e-3,
+                            .create = [](MethodContext& context, const Json&) -> std::unique_ptr<Method> {
+                              return std::make_unique<TwoLights>(context);
+                            }})

@@ -2,8 +2,8 @@
 #version 460
 #include "light_kernel.glsl"
 
-// Flux Φ/(N p) of a texel drawn with density p. An unlit or absent texel, or a PDF that is zero everywhere, gives no
-// light. parameter[0]: clamp of the geometry term, 1/m²; 0: none.
+// Flux Φ/(N p) of a texel drawn with density p. An unlit or absent texel, or a PDF that is zero everywhere,
+// gives no light. parameter[0]: clamp of the geometry term, 1/m²; 0: none.
 Vpl make_light(uint i) {
   Draw d;
   Texel t;

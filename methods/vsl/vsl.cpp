@@ -24,10 +24,11 @@ class SphericalLights : public Method {
     points_->generate(steps, field, target);
     // As importance, lights count as points: the eye's have no radius.
     if (field.half == Half::gbuffer) return;
-    // lavapipe ends a shader's loops after 65535 rounds in all: each dispatch looks at a range of the lights, and
-    // carries on with the nearest so far. A light that is nearer than all before it takes k rounds more.
+    // lavapipe ends a shader's loops after 65535 rounds in all: each dispatch looks at a range of the lights,
+    // and carries on with the nearest so far. A light that is nearer than all before it takes k rounds more.
     const uint32_t most = 60000 / (neighbours_ + 1);
-    const Buffer& nearest = context_.scratch("vsl.nearest", size_t(target.count) * neighbours_ * sizeof(float));
+    const Buffer& nearest =
+        context_.scratch("vsl.nearest", size_t(target.count) * neighbours_ * sizeof(float));
     Recorder& r = steps.recorder();
     steps.pass("radii", [&] {
       for (uint32_t first = 0; first < target.count; first += most) {
@@ -53,12 +54,18 @@ class SphericalLights : public Method {
 }  // namespace vsglbench
 
 VSGLBENCH_METHOD(MethodInfo{
-    .summary = "virtual spherical lights: exact BRDFs over the cone towards a sphere, by Monte-Carlo with MIS",
+    .summary =
+        "virtual spherical lights: exact BRDFs over the cone towards a sphere, by Monte-Carlo with MIS",
     .source = "Hašan et al. 2009; [VSGL14] Eq. 2",
     .makes_vpls = Json::object(),
     .parameters = {{"k", 10, "neighbours whose distance is the radius", 1, 32, {}},
                    {"radius_scale", 1.0, "times that distance", 1e-6, 1e6, {}},
-                   {"samples", 8.0, "of each strategy, under a half angle of 90°; fewer in proportion below", 1, 1024, {}}},
+                   {"samples",
+                    8.0,
+                    "of each strategy, under a half angle of 90°; fewer in proportion below",
+                    1,
+                    1024,
+                    {}}},
     .flux_bound = 0.01,
     .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
       return std::make_unique<SphericalLights>(context, parameters);

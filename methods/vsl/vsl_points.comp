@@ -1,4 +1,5 @@
-// The lights of `vpl`, each with the radius of the disk that its share of texels covers, until its neighbours say more.
+// The lights of `vpl`, each with the radius of the disk that its share of texels covers, until its neighbours
+// say more.
 #version 460
 #include "light_kernel.glsl"
 

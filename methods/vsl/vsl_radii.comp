@@ -1,11 +1,14 @@
-// The radius of each light: the distance of its k-th nearest neighbour among the lights that carry power, times a
-// factor (density estimation as in photon mapping; Hašan et al. 2009). Where k lights stand on one texel the radius of
-// its share stays; where there are fewer than k others, the farthest counts; where there is none, the share's.
+// The radius of each light: the distance of its k-th nearest neighbour among the lights that carry power,
+// times a factor (density estimation as in photon mapping; Hašan et al. 2009). Where k lights stand on one
+// texel the radius of its share stays; where there are fewer than k others, the farthest counts; where there
+// is none, the share's.
 #version 460
 #include "types.h"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) buffer Lights { Vpl lights[]; };
-layout(set = 0, binding = 1, std430) buffer Nearest { float nearest[]; };  // k squared distances a light, ascending
+layout(set = 0, binding = 1, std430) buffer Nearest {
+  float nearest[];
+};  // k squared distances a light, ascending
 layout(push_constant, scalar) uniform Push {
   uint count;
   uint first, last;  // neighbours [first, last) in this dispatch

@@ -5,7 +5,10 @@ layout(local_size_x = 64) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vsgl lights[]; };
-layout(push_constant, scalar) uniform Push { Emitter emitter; uint count; };
+layout(push_constant, scalar) uniform Push {
+  Emitter emitter;
+  uint count;
+};
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

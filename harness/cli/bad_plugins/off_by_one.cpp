@@ -28,8 +28,9 @@ class Bad : public Method {
 }  // namespace
 }  // namespace vsglbench
 
-VSGLBENCH_METHOD(MethodInfo{.summary = "writes lights[i + 1]",
-                            .source = "-",
-                            .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
-                              return std::make_unique<Bad>(context, parameters);
-                            }})
+VSGLBENCH_METHOD(MethodInfo{
+    .summary = "writes lights[i + 1]",
+    .source = "-",
+    .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
+      return std::make_unique<Bad>(context, parameters);
+    }})

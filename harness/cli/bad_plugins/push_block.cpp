@@ -7,7 +7,8 @@ namespace {
 class Bad : public Method {
  public:
   Bad(MethodContext& context, const Json& parameters)
-      : kernel_(context.kernel("push_block.comp", {{"LARGER", parameters.at("block") == "larger" ? "1" : "0"}})) {}
+      : kernel_(context.kernel("push_block.comp",
+                               {{"LARGER", parameters.at("block") == "larger" ? "1" : "0"}})) {}
   LightKind kind() const override { return LightKind::vsgl; }
   bool uses_importance() const override { return false; }
   void generate(Steps& steps, const Field&, const LightTarget& target) override {
@@ -27,9 +28,10 @@ class Bad : public Method {
 }  // namespace
 }  // namespace vsglbench
 
-VSGLBENCH_METHOD(MethodInfo{.summary = "pushes another block than its kernel has",
-                            .source = "-",
-                            .parameters = {{"block", "larger", "the kernel's, against the host's", 0, 0, {"larger", "smaller"}}},
-                            .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
-                              return std::make_unique<Bad>(context, parameters);
-                            }})
+VSGLBENCH_METHOD(MethodInfo{
+    .summary = "pushes another block than its kernel has",
+    .source = "-",
+    .parameters = {{"block", "larger", "the kernel's, against the host's", 0, 0, {"larger", "smaller"}}},
+    .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
+      return std::make_unique<Bad>(context, parameters);
+    }})

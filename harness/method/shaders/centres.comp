@@ -1,5 +1,5 @@
-// Cluster centres: the texels that a stratified point set, warped by the PDF, chooses [MFIS16 App. D], exactly
-// as fis and mfis choose theirs. A PDF that is zero everywhere gives N centres that are none (w = 0).
+// Cluster centres: the texels that a stratified point set, warped by the PDF, chooses [MFIS16 App. D],
+// exactly as fis and mfis choose theirs. A PDF that is zero everywhere gives N centres that are none (w = 0).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 layout(local_size_x = 64) in;

@@ -36,15 +36,15 @@ Moments total(Sum sum) {
 }
 
 // First index in ascending a[0, n) whose value is not below `key`; a[i] is ASCENDING(i).
-#define LOWER_BOUND(result, n, key, ASCENDING)   \
-  uint result = 0u;                              \
-  for (uint end = n; result < end;) {            \
-    uint middle = result + (end - result) / 2u;  \
-    if (ASCENDING(middle) < (key)) {             \
-      result = middle + 1u;                      \
-    } else {                                     \
-      end = middle;                              \
-    }                                            \
+#define LOWER_BOUND(result, n, key, ASCENDING)  \
+  uint result = 0u;                             \
+  for (uint end = n; result < end;) {           \
+    uint middle = result + (end - result) / 2u; \
+    if (ASCENDING(middle) < (key)) {            \
+      result = middle + 1u;                     \
+    } else {                                    \
+      end = middle;                             \
+    }                                           \
   }
 
 #endif

@@ -1,7 +1,8 @@
 // VSGLs by filtered importance sampling [MFIS16 §3–4, App. D]. The including kernel defines
 //   float kernel_level(Centre c)               the mip level l_i
 //   float kernel_share(Centre c, float level)  the total is this times the filtered mean f̄(x_i, l_i)
-// and, with OWN_CENTRES, uvec2 choose_texel(uint i), the base texel of light i; else a stratified point is warped.
+// and, with OWN_CENTRES, uvec2 choose_texel(uint i), the base texel of light i; else a stratified point is
+// warped.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Pdf { float pdf[]; };
 #define PDF(i) pdf[i]
@@ -12,8 +13,8 @@ layout(set = 0, binding = 6, scalar) writeonly buffer Lights { Vsgl lights[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Squares { vec4 squares[]; };  // LightShapes
 layout(push_constant, scalar) uniform Push {
   uint width, height;
-  uint count;         // N
-  uint step;          // floor(2^32/N)
+  uint count;  // N
+  uint step;   // floor(2^32/N)
   uvec2 shift;
   float kernel_size;  // K
 };

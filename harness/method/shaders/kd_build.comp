@@ -1,5 +1,6 @@
-// Internal nodes of a binary radix tree over sorted Morton codes, all at once (Karras, "Maximizing Parallelism
-// in the Construction of BVHs, Octrees, and k-d Trees", HPG 2012, Fig. 4); equal codes are told apart by rank.
+// Internal nodes of a binary radix tree over sorted Morton codes, all at once (Karras, "Maximizing
+// Parallelism in the Construction of BVHs, Octrees, and k-d Trees", HPG 2012, Fig. 4); equal codes are told
+// apart by rank.
 #version 460
 #include "kd_tree.glsl"
 layout(local_size_x = 64) in;

@@ -1,12 +1,15 @@
 // Split planes of the radix tree, from the leaves up (Karras 2012, §4): of a node's two children the one that
-// comes last goes on. The planes are the centres' own coordinates, so that they bound exactly in single precision.
+// comes last goes on. The planes are the centres' own coordinates, so that they bound exactly in single
+// precision.
 #version 460
 #include "kd_tree.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer Sorted { TreeCentre sorted_centres[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Parents { uint parents[]; };
 layout(set = 0, binding = 2, std430) coherent buffer Visits { uint visits[]; };
-struct Box { vec3 low, high; };
+struct Box {
+  vec3 low, high;
+};
 layout(set = 0, binding = 3, scalar) coherent buffer Boxes { Box boxes[]; };  // of both children of each node
 layout(set = 0, binding = 4, scalar) buffer Nodes { TreeNode nodes[]; };
 layout(push_constant) uniform Push { uint count, depth; };  // depth: nodes above a leaf at most

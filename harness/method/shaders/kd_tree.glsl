@@ -7,8 +7,8 @@
 #define INFINITY uintBitsToFloat(0x7F800000u)
 const uint NO_CENTRE = 0xFFFFFFFFu;
 
-// A centre at its place along the Morton curve. One that is none, or that lies exactly on its predecessor, has
-// id NO_CENTRE and stands at infinity: no query comes near it.
+// A centre at its place along the Morton curve. One that is none, or that lies exactly on its predecessor,
+// has id NO_CENTRE and stands at infinity: no query comes near it.
 struct TreeCentre {
   vec3 position;
   uint id;

@@ -1,5 +1,5 @@
-// One step of Lloyd's: each centre to the mean of its texels, weighted with the PDF that the centres were drawn by.
-// A cluster whose texels the PDF leaves out keeps its centre.
+// One step of Lloyd's: each centre to the mean of its texels, weighted with the PDF that the centres were
+// drawn by. A cluster whose texels the PDF leaves out keeps its centre.
 #version 460
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler2D position_map;

@@ -1,7 +1,7 @@
 // One invocation a light (method/light_kernel.h). The including kernel defines
 //   LIGHT make_light(uint i)   the i-th of `count` lights; LIGHT is Vsgl or Vpl
-// and reads: emitter, count, parameter[0..3]; draw(), load_texel(), leaf_moments(), merge(), make_vsgl(), no_light(),
-// make_vpl().
+// and reads: emitter, count, parameter[0..3]; draw(), load_texel(), leaf_moments(), merge(), make_vsgl(),
+// no_light(), make_vpl().
 #include "types.h"
 layout(local_size_x = 64) in;
 #include "field_maps.glsl"

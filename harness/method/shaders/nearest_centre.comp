@@ -1,8 +1,8 @@
-// The nearest centre of every texel, by depth-first search of the kd-tree for a block of BLOCK_X × BLOCK_Y texels
-// at once: a subtree is left out when it is further from the texels' box than every texel's best so far. A block
-// of one texel is the usual search. All bounds are sums of the same rounded terms as the distances, none of
-// which decreases with the coordinate difference, so in single precision too they never leave out a centre
-// that is as near as the best.
+// The nearest centre of every texel, by depth-first search of the kd-tree for a block of BLOCK_X × BLOCK_Y
+// texels at once: a subtree is left out when it is further from the texels' box than every texel's best so
+// far. A block of one texel is the usual search. All bounds are sums of the same rounded terms as the
+// distances, none of which decreases with the coordinate difference, so in single precision too they never
+// leave out a centre that is as near as the best.
 #version 460
 #include "kd_tree.glsl"
 layout(local_size_x = 64) in;
@@ -148,8 +148,8 @@ void search(uint group, uint tried) {
   }
 }
 
-// The texels of `left` that lie together, measured by how far apart the centres are round one of them: a block
-// that spans a jump of depth, or many centres, falls into several such groups.
+// The texels of `left` that lie together, measured by how far apart the centres are round one of them: a
+// block that spans a jump of depth, or many centres, falls into several such groups.
 uint next_group(uint left, out uint tried) {
   Point from = query[0];
   for (uint k = 1u; k < TEXELS; ++k) from = findLSB(left) == int(k) ? query[k] : from;

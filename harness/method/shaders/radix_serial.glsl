@@ -11,9 +11,7 @@ layout(push_constant, std430) uniform Push {
 
 uvec4 digit(uvec4 key) { return (key >> shift) & (bins - 1u); }
 
-uvec4 counter_index(uvec4 bin) {
-  return (gl_WorkGroupID.x * bins + bin) * LANES + gl_LocalInvocationID.x;
-}
+uvec4 counter_index(uvec4 bin) { return (gl_WorkGroupID.x * bins + bin) * LANES + gl_LocalInvocationID.x; }
 
 // First key of this invocation's run, and one past its last.
 uvec2 key_run() {

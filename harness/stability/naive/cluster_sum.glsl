@@ -1,5 +1,5 @@
-// Tests only, with moments.glsl: sums about the origin instead of about a set's first position, in place of those of
-// method/shaders/cluster_sum.glsl, which lies beside it as sound_cluster_sum.glsl.
+// Tests only, with moments.glsl: sums about the origin instead of about a set's first position, in place of
+// those of method/shaders/cluster_sum.glsl, which lies beside it as sound_cluster_sum.glsl.
 #ifndef NAIVE_CLUSTER_SUM_GLSL
 #define NAIVE_CLUSTER_SUM_GLSL
 
