@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "cli/command.h"
-#include "frame/conformance.h"
+#include "conformance/conformance.h"
 #include "method/registry.h"
 
 namespace vsglbench {

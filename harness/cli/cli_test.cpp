@@ -139,7 +139,7 @@ class Interrupted : public CliTest {
   Finished interrupt(int signal) {
     config_["scenes"] = {"cornell", "ring514"};
     config_["timing"] = {{"min_samples", 60}, {"max_samples", 60}};
-    const Child child = start({"-q", "run", write_config().string(), "--out", out_.string()});
+    const RunningProgramme child = start({"-q", "run", write_config().string(), "--out", out_.string()});
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (!fs::exists(out_ / "report.json") && std::chrono::steady_clock::now() < deadline) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));

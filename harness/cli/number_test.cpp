@@ -21,7 +21,7 @@ TEST_F(CliTest, CtrlCLeavesNoProcessOfAPlugin) {
   const fs::path file = folder_ / "pid", bad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
   ::setenv("VSGLBENCH_TEST_PID", file.c_str(), 1);
   config_["methods"] = {{{"method", "faulty"}, {"fault", "holds"}}};
-  const Child child =
+  const RunningProgramme child =
       start({"-q", "--plugin-path", bad.string(), "run", write_config().string(), "--out", out_.string()});
   for (int i = 0; i < 6000 && (!fs::exists(file) || fs::is_empty(file)); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -37,7 +37,7 @@ struct Limits {
   const char* standard_output = nullptr;  // a file instead of the pipe
 };
 
-struct Child {
+struct RunningProgramme {
   pid_t pid = -1;
   int out = -1, err = -1;  // ends of pipes, which hold more than a test's programme says
 };
@@ -47,7 +47,7 @@ inline void limit(int resource, rlim_t bytes) {
   ::setrlimit(resource, &value);
 }
 
-inline Child start(const std::vector<std::string>& arguments, const Limits& limits = {}) {
+inline RunningProgramme start(const std::vector<std::string>& arguments, const Limits& limits = {}) {
   std::vector<std::string> all = {VSGLBENCH_PROGRAM};
   all.insert(all.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -80,7 +80,7 @@ inline std::string read_to_end(int pipe) {
   return text;
 }
 
-inline Finished finish(const Child& child) {
+inline Finished finish(const RunningProgramme& child) {
   Finished f;
   f.out = read_to_end(child.out);
   f.err = read_to_end(child.err);

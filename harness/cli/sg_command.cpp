@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
-#include "measure/sg_random.h"
-#include "measure/sg_receiver.h"
+#include "operation/sg_random.h"
+#include "operation/sg_receiver.h"
 
 namespace vsglbench {
 namespace {

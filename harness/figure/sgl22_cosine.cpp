@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "figure/sgl22.h"
-#include "measure/sg_evaluation.h"
+#include "operation/sg_evaluation.h"
 
 namespace vsglbench::sgl22 {
 namespace {

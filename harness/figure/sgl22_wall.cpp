@@ -9,7 +9,7 @@
 
 #include "figure/sgl22.h"
 #include "image/contact.h"
-#include "measure/sg_evaluation.h"
+#include "operation/sg_evaluation.h"
 
 namespace vsglbench::sgl22 {
 namespace {

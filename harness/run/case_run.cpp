@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/log.h"
+#include "lights/coverage.h"
 #include "measure/stopwatch.h"
 #include "method/registry.h"
-#include "run/coverage.h"
 #include "run/flux_check.h"
 
 namespace vsglbench {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "lights/coverage.h"
+#include "lights/light_list.h"
 #include "report/report.h"
 #include "run/config.h"
-#include "run/coverage.h"
-#include "run/light_list.h"
 #include "run/scene_pdfs.h"
 
 namespace vsglbench {

@@ -54,8 +54,8 @@ float receiver_asg(Receiver r, Sg sg) {
 // (v·h)²)), and widens D. A Phong lobe of exponent n becomes one of n λ'/(n+λ'). GGX's α² grows by 2/λ' in
 // projected space, where α²/(1-α²) stands for α² and no lobe is wider than the hemisphere (Tokuyoshi and
 // Kaplanyan 2021). As λ → ∞ it is D(h) itself; under wide lights it is too bright, by up to 50 %
-// (harness/measure/approximations.csv, `filtered`), more at grazing views. Above a sharpness of 2^41 nothing
-// widens.
+// (harness/operation/approximations.csv, `filtered`), more at grazing views. Above a sharpness of 2^41
+// nothing widens.
 float receiver_filtered(Receiver r, Sg sg, float vh) {
   float wide = max(4.0 * vh * sg.sharpness, 1e-6);
   vec3 h = safe_normalize(sg.axis + r.surface.view, r.surface.normal);

@@ -1,6 +1,6 @@
 // Spherical Gaussians G(ω;ξ,λ) = exp(λ(ω·ξ-1)) in cancellation-free forms. λ in [0,2^41] unless said
 // otherwise. Error bounds are relative, in single precision, against the same formula in double precision on
-// the same inputs; harness/measure/sg_evaluation_test.cpp holds them, and shows that the naive forms break
+// the same inputs; harness/operation/sg_evaluation_test.cpp holds them, and shows that the naive forms break
 // them. Sources: [MFIS16] App. A–C, [VSGL15s], Banerjee et al. 2005 (vMF), Toksvig 2005.
 #ifndef VSGLBENCH_SG_GLSL
 #define VSGLBENCH_SG_GLSL

@@ -1,10 +1,10 @@
-// Faults planted in the shaders that the oracles of measure/approximations.h must see: a wrong axis, a
+// Faults planted in the shaders that the oracles of operation/approximations.h must see: a wrong axis, a
 // missing cosine, a factor 2.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "measure/approximation_table.h"
+#include "operation/approximation_table.h"
 #include "stability/planted_tree.h"
 
 using namespace vsglbench;

@@ -20,7 +20,7 @@ const char* stability_name(Stability status) {
   return names[static_cast<size_t>(status)];
 }
 
-void Verdict::error(double relative, const std::string& where, const std::string& explanation) {
+void Judgement::error(double relative, const std::string& where, const std::string& explanation) {
   const double e = std::isnan(relative) ? kInfinity : relative;
   if (e <= worst_) return;
   worst_ = e;
@@ -28,20 +28,20 @@ void Verdict::error(double relative, const std::string& where, const std::string
   explanation_ = explanation;
 }
 
-void Verdict::raise(Stability status, const std::string& why) {
+void Judgement::raise(Stability status, const std::string& why) {
   if (status <= status_) return;
   status_ = status;
   why_ = why;
 }
 
-void Verdict::bad(const std::string& why) { raise(Stability::bad, why); }
-void Verdict::bias(const std::string& why) { raise(Stability::bias, why); }
+void Judgement::bad(const std::string& why) { raise(Stability::bad, why); }
+void Judgement::bias(const std::string& why) { raise(Stability::bias, why); }
 
-void Verdict::note(const std::string& text) { note_ = note_.empty() ? text : note_ + "; " + text; }
+void Judgement::note(const std::string& text) { note_ = note_.empty() ? text : note_ + "; " + text; }
 
-StabilityCell Verdict::cell(const std::string& hard_case, const std::string& method,
-                            const std::string& diffuse) const {
-  Verdict all = *this;
+StabilityCell Judgement::cell(const std::string& hard_case, const std::string& method,
+                              const std::string& diffuse) const {
+  Judgement all = *this;
   const std::string off = fmt::format("{}{}{}", where_, explanation_.empty() ? "" : ": ", explanation_);
   if (worst_ > kBadError) all.bad(off);
   if (worst_ > kOkError) all.bias(off);

@@ -32,7 +32,7 @@ Json to_json(const StabilityCell& cell);
 StabilityCell cell_from_json(const Json& json);
 
 // Collects what is seen of one cell.
-class Verdict {
+class Judgement {
  public:
   // A relative error, which says `where` if it is the worst; NaN counts as infinite. `explanation`: how the
   // two figures read.

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "measure/sg_evaluation.h"
-#include "measure/sg_random.h"
+#include "operation/sg_evaluation.h"
+#include "operation/sg_random.h"
 
 using namespace vsglbench;
 

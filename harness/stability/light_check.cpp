@@ -113,7 +113,7 @@ Difference filtered_difference(const LightsAsked& asked, const oracle::Pyramid& 
 }
 
 void check_filtered(const LightsAsked& asked, oracle::Rule rule, const LightRecords& lights,
-                    Verdict* verdict) {
+                    Judgement* verdict) {
   const oracle::Pyramid pyramid(asked.half);
   const auto count = static_cast<uint32_t>(lights.count());
   for (uint32_t i = 0; i < count; ++i) {
@@ -140,7 +140,7 @@ double own_variance(const oracle::Sums& texel) {
 }
 
 // All lights together against all texels together; and none smaller than a texel.
-void check_sum(const LightsAsked& asked, const LightRecords& lights, Verdict* verdict) {
+void check_sum(const LightsAsked& asked, const LightRecords& lights, Judgement* verdict) {
   oracle::Sums made, texels;
   for (size_t i = 0; i < lights.count(); ++i) {
     const oracle::Vsgl v = widened(lights.vsgl(i));
@@ -190,7 +190,7 @@ Difference texel_difference(const LightsAsked& asked, const gpu::Vpl& light, siz
   return d;
 }
 
-void check_vpls(const LightsAsked& asked, const LightRecords& lights, Verdict* verdict) {
+void check_vpls(const LightsAsked& asked, const LightRecords& lights, Judgement* verdict) {
   const oracle::Half& half = asked.half;
   double mean = 0;
   for (const float p : half.pdf) mean += p / static_cast<double>(half.pdf.size());
@@ -213,7 +213,7 @@ void check_vpls(const LightsAsked& asked, const LightRecords& lights, Verdict* v
 
 }  // namespace
 
-void check_lights(const LightsAsked& asked, const LightRecords& lights, Verdict* verdict) {
+void check_lights(const LightsAsked& asked, const LightRecords& lights, Judgement* verdict) {
   if (const std::string fault = first_fault(lights, asked.powerless); !fault.empty()) verdict->bad(fault);
   if (asked.powerless || verdict->is_bad()) return;
   if (lights.kind != LightKind::vsgl) return check_vpls(asked, lights, verdict);
@@ -224,7 +224,7 @@ void check_lights(const LightsAsked& asked, const LightRecords& lights, Verdict*
   }
 }
 
-void check_energy(const MethodInfo& method, double mean, double standard_error, Verdict* verdict) {
+void check_energy(const MethodInfo& method, double mean, double standard_error, Judgement* verdict) {
   const double off = std::abs(mean - 1);
   if (off <= method.flux_bound + 3 * standard_error) return;
   verdict->bias(fmt::format("the lights carry {:.4g} × the texels' power ± {:.1g}; flux_bound is {:g}", mean,

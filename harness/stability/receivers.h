@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "frame/conformance_lights.h"
+#include "conformance/lights.h"
 #include "method/oracle.h"
 
 namespace vsglbench {

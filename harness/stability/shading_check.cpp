@@ -147,7 +147,7 @@ double relative(const Pixel& p, int c, const dvec3& floor) {
 
 template <class Light>
 void check(const oracle::Half& receivers, std::span<const glm::vec3> pixels, const Exactly<Light>& exactly,
-           bool black, Verdict* verdict) {
+           bool black, Judgement* verdict) {
   std::vector<Pixel> all;
   std::vector<exact::Surface> surfaces;
   dvec3 mean(0);
@@ -183,7 +183,7 @@ Exactly<Light> exactly(const LightRecords& records, const exact::VsglShading& sh
 }
 
 // Of lights whose shading has no value to compare with.
-void check_possible(std::span<const glm::vec3> pixels, bool black, Verdict* verdict) {
+void check_possible(std::span<const glm::vec3> pixels, bool black, Judgement* verdict) {
   verdict->note("pixels have no double form: looked at for NaN, Inf and sign");
   for (size_t i = 0; i < pixels.size(); ++i) {
     const std::string fault = impossible({fmt::format("pixel {}", i), pixels[i], dvec3(0)}, black);
@@ -195,7 +195,7 @@ void check_possible(std::span<const glm::vec3> pixels, bool black, Verdict* verd
 
 void check_shading(const oracle::Half& receivers, std::span<const glm::vec3> pixels,
                    const LightRecords& lights, const std::optional<exact::VsglShading>& shading, bool black,
-                   Verdict* verdict) {
+                   Judgement* verdict) {
   if (lights.kind == LightKind::vsgl && shading) {
     const auto get = [&](size_t i) { return lights.vsgl(i); };
     check(receivers, pixels, exactly<gpu::Vsgl>(lights, *shading, get), black, verdict);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "frame/conformance_lights.h"
+#include "conformance/lights.h"
 #include "method/oracle.h"
 #include "shaders/shading_exact.h"
 #include "stability/cell.h"
@@ -26,6 +26,6 @@ namespace vsglbench {
 // to be finite and not negative.
 void check_shading(const oracle::Half& receivers, std::span<const glm::vec3> pixels,
                    const LightRecords& lights, const std::optional<exact::VsglShading>& shading, bool black,
-                   Verdict* verdict);
+                   Judgement* verdict);
 
 }  // namespace vsglbench

@@ -131,7 +131,7 @@ std::vector<StabilityCell> run_stability(const StabilityOptions& options,
     if (next == jobs.size()) break;
     if (!open && next == first)
       throw fail(ErrorKind::device, "the device's process {}", child.how_it_ended());
-    Verdict verdict;
+    Judgement verdict;
     verdict.bad(child.how_it_ended().empty() ? "ended the process" : child.how_it_ended());
     tell(verdict.cell(jobs[next].hard_case->name, jobs[next].row->name, "-"));
     ++next;

@@ -78,7 +78,7 @@ TEST(Stability, UnknownNamesAreRefused) {
 }
 
 TEST(Verdicts, FollowTheWorstFigure) {
-  Verdict verdict;
+  Judgement verdict;
   verdict.error(5e-4, "light 1", "power");
   EXPECT_EQ(verdict.cell("", "", "").status, Stability::ok);
   verdict.error(2e-3, "pixel (1,0)");

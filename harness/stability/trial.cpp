@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/conformance_run.h"
+#include "conformance/run.h"
 #include "method/registry.h"
 #include "stability/light_check.h"
 #include "stability/shading_check.h"
@@ -49,7 +49,7 @@ double mean_of(const std::vector<double>& v) {
 
 // The mean of the lights' powers over lattice shifts, against the texels'.
 void check_powers(const MethodInfo& method, const std::vector<double>& powers, double texels,
-                  Verdict* verdict) {
+                  Judgement* verdict) {
   if (!(texels > 0)) return;
   const double mean = mean_of(powers);
   double square = 0;
@@ -85,7 +85,7 @@ oracle::Half downloaded(const DeferredTargets& targets, const gpu::Emitter& emit
   return half;
 }
 
-void check_targets(const oracle::Half& half, const char* name, Verdict* verdict) {
+void check_targets(const oracle::Half& half, const char* name, Judgement* verdict) {
   for (size_t i = 0; i < half.texels.size(); ++i) {
     const oracle::Texel& t = half.texels[i];
     const glm::vec3 sum = t.position + t.normal + t.geometric_normal + t.diffuse + t.f0;
@@ -127,11 +127,11 @@ std::vector<StabilityCell> Trial::run(const HardCase& hard_case, const Stability
     return cells;
   } catch (const Error& e) {
     if (e.kind() == ErrorKind::device) throw;
-    Verdict verdict;
+    Judgement verdict;
     verdict.bad(fmt::format("threw \"{}\"", e.what()));
     return {verdict.cell(hard_case.name, row.name, "-")};
   } catch (const std::exception& e) {
-    Verdict verdict;
+    Judgement verdict;
     verdict.bad(fmt::format("threw \"{}\"", e.what()));
     return {verdict.cell(hard_case.name, row.name, "-")};
   }
@@ -140,7 +140,7 @@ std::vector<StabilityCell> Trial::run(const HardCase& hard_case, const Stability
 std::vector<StabilityCell> Trial::run_half(const HardCase& hard_case, const StabilityRow& row,
                                            const MethodInfo& method) {
   const HalfCase c = hard_case.half();
-  Verdict verdict;
+  Judgement verdict;
   Json given = row.parameters;
   if (c.kernel_size) {
     const ParameterInfo* k = parameter_named(method, "K");
@@ -169,7 +169,7 @@ std::vector<StabilityCell> Trial::run_half(const HardCase& hard_case, const Stab
   const oracle::Half receivers = c.receivers(c.half, light_spots(first));
   std::vector<StabilityCell> cells;
   for (const std::string& diffuse : kernels_of(hard_case, row)) {
-    Verdict all = verdict;
+    Judgement all = verdict;
     const Shading shading = shading_of(row, diffuse);
     const auto pixels = shading_.shade(receivers, first, shading);
     check_shading(receivers, pixels, first, exact_shading(shading), powerless, &all);
@@ -183,7 +183,7 @@ StabilityCell Trial::run_scene(const HardCase& hard_case, const StabilityRow& ro
   if (!method.takes_light_count && hard_case.name.starts_with("n-")) {
     return left_out(hard_case, row, "takes no N");
   }
-  Verdict verdict;
+  Judgement verdict;
   try {
     const SceneCase c = hard_case.scene();
     Stage stage(kernels_.device(), kernels_, c.scene);

@@ -1,0 +1,173 @@
+#include "lights/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace vsglbench {
+namespace {
+
+// How often each texel of an image is counted, from rectangles of texels that each add an amount:
+// differences, summed up once.
+class Counts {
+ public:
+  Counts(uint32_t width, uint32_t height)
+      : width_(width), height_(height), steps_((size_t(width) + 1) * (size_t(height) + 1), 0) {}
+  void add(glm::uvec2 from, glm::uvec2 to, double amount) {
+    step(from.x, from.y) += amount;
+    step(to.x, from.y) -= amount;
+    step(from.x, to.y) -= amount;
+    step(to.x, to.y) += amount;
+  }
+  std::vector<double> texels() const {
+    std::vector<double> out(size_t(width_) * height_), above(width_, 0);
+    for (uint32_t y = 0; y < height_; ++y) {
+      double row = 0;
+      for (uint32_t x = 0; x < width_; ++x) {
+        row += steps_[size_t(y) * (width_ + 1) + x];
+        above[x] += row;
+        out[size_t(y) * width_ + x] = above[x];
+      }
+    }
+    return out;
+  }
+
+ private:
+  double& step(uint32_t x, uint32_t y) { return steps_[size_t(y) * (width_ + 1) + x]; }
+  uint32_t width_, height_;
+  std::vector<double> steps_;
+};
+
+// A texel of a level, on one axis: the base texels [from, to) of its block, and its weight.
+struct Tap {
+  uint32_t from, to;
+  double weight;
+};
+
+// The two that bilinear filtering at `position` reads on one axis of a level (shaders/pyramid.glsl).
+std::array<Tap, 2> taps(uint32_t base, uint32_t level, double position) {
+  const uint32_t block = 1u << level, size = (base + block - 1) / block;
+  const double centre = std::clamp(position / block - 0.5, 0.0, size - 1.0);
+  const auto lower = static_cast<uint32_t>(centre);
+  const uint32_t upper = std::min(lower + 1, size - 1);
+  const double part = std::min(1.0, static_cast<double>(base) / block - upper);
+  double f = centre - lower;
+  if (part < 0.5) f *= 2 * part / ((0.5 + part) * (0.5 + part));
+  const auto tap = [&](uint32_t texel, double weight) {
+    return Tap{texel * block, std::min(base, (texel + 1) * block), weight};
+  };
+  return {tap(lower, 1 - f), tap(upper, f)};
+}
+
+// The mean over a texel's block counts `times` times in all: each of its base texels, times over their
+// number.
+void add_level(Counts* counts, const glm::vec4& kernel, uint32_t level, double times, glm::uvec2 size) {
+  for (const Tap& y : taps(size.y, level, kernel.y)) {
+    for (const Tap& x : taps(size.x, level, kernel.x)) {
+      const double texels = double(x.to - x.from) * (y.to - y.from);
+      counts->add({x.from, y.from}, {x.to, y.to}, times * x.weight * y.weight / texels);
+    }
+  }
+}
+
+struct Integrals {
+  double all = 0, overlap = 0, gap = 0;
+  void add(double amount, double count) {
+    all += amount;
+    overlap += std::max(count - 1, 0.0) * amount;
+    gap += std::max(1 - count, 0.0) * amount;
+  }
+};
+
+Coverage means(const Integrals& area, const Integrals& pdf) {
+  Coverage c{area.overlap / area.all, area.gap / area.all, std::nullopt, std::nullopt};
+  if (pdf.all > 0) {
+    c.pdf_overlap = pdf.overlap / pdf.all;
+    c.pdf_gap = pdf.gap / pdf.all;
+  }
+  return c;
+}
+
+glm::vec4 checked(const glm::vec4& square, size_t light) {
+  if (std::isfinite(square.x) && std::isfinite(square.y) && std::isfinite(square.z) && square.z >= 0)
+    return square;
+  throw fail(ErrorKind::plugin, "the kernel of light {} is no square: centre ({}, {}), side {}", light,
+             square.x, square.y, square.z);
+}
+
+template <class T>
+std::vector<T> read(const Buffer& buffer, uint64_t count) {
+  if (buffer.size() >= count * sizeof(T)) return buffer.download<T>(count);
+  throw fail(ErrorKind::plugin, "the method's light shapes have {} bytes for {} records of {}", buffer.size(),
+             count, sizeof(T));
+}
+
+std::vector<uint32_t> read_clusters(const LightShapes& shapes, uint32_t lights, uint64_t texels) {
+  const auto ids = read<uint32_t>(*shapes.ids, texels);
+  if (!shapes.texels) return ids;
+  const auto places = read<uint32_t>(*shapes.texels, texels);
+  std::vector<uint32_t> clusters(texels, lights);
+  for (size_t i = 0; i < texels; ++i) {
+    if (places[i] >= texels)
+      throw fail(ErrorKind::plugin, "cluster {} has texel {}, outside of the RSM", ids[i], places[i]);
+    clusters[places[i]] = ids[i];
+  }
+  return clusters;
+}
+
+}  // namespace
+
+RsmShapes read_shapes(const LightShapes& shapes, uint32_t lights, uint64_t texels) {
+  RsmShapes out;
+  if (shapes.squares) {
+    out.squares = read<glm::vec4>(*shapes.squares, lights);
+    for (size_t i = 0; i < out.squares.size(); ++i) checked(out.squares[i], i);
+  } else if (shapes.ids) {
+    out.clusters = read_clusters(shapes, lights, texels);
+  }
+  return out;
+}
+
+Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, uint32_t height,
+                       const std::vector<float>& pdf) {
+  uint32_t top = 0;
+  while ((uint64_t{1} << top) < std::max(width, height)) ++top;
+  Counts counts(width, height);
+  for (const glm::vec4& kernel : kernels) {
+    if (!(kernel.z > 0)) continue;
+    const double level = std::clamp(std::log2(double(kernel.z)), 0.0, double(top)),
+                 area = std::exp2(2 * level);
+    const auto lower = static_cast<uint32_t>(level);
+    add_level(&counts, kernel, lower, area * (1 - (level - lower)), {width, height});
+    add_level(&counts, kernel, std::min(lower + 1, top), area * (level - lower), {width, height});
+  }
+  Integrals all, weighted;
+  const std::vector<double> count = counts.texels();
+  for (size_t i = 0; i < count.size(); ++i) {
+    all.add(1, count[i]);
+    if (!pdf.empty()) weighted.add(pdf[i], count[i]);
+  }
+  return means(all, weighted);
+}
+
+Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
+                        const std::vector<float>& pdf) {
+  Integrals area, weighted;
+  for (size_t i = 0; i < clusters.size(); ++i) {
+    const int count = clusters[i] < lights ? 1 : 0;
+    area.add(1, count);
+    if (!pdf.empty()) weighted.add(pdf[i], count);
+  }
+  return means(area, weighted);
+}
+
+std::optional<Coverage> coverage_of(const RsmShapes& shapes, uint32_t lights, uint32_t width, uint32_t height,
+                                    const std::vector<float>& pdf) {
+  if (!shapes.squares.empty()) return cover_kernels(shapes.squares, width, height, pdf);
+  if (!shapes.clusters.empty()) return cover_clusters(shapes.clusters, lights, pdf);
+  return std::nullopt;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,119 @@
+#include "lights/light_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace vsglbench {
+namespace {
+
+// The double that prints with the fewest digits of those that round to `value`.
+double shortest(float value) { return std::stod(fmt::format("{}", value)); }
+
+Json shortest(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+
+Json world(const glm::dvec3& origin, const glm::vec3& offset) {
+  const glm::dvec3 p = origin + glm::dvec3(offset);
+  return {p.x, p.y, p.z};
+}
+
+Json lobe(const glm::vec3& axis, float sharpness, const glm::vec3& amplitude) {
+  return {{"axis", shortest(axis)}, {"sharpness", shortest(sharpness)}, {"amplitude", shortest(amplitude)}};
+}
+
+Json fields(const gpu::Vsgl& l, const glm::dvec3& origin) {
+  Json out = {{"mean", world(origin, l.mean)},
+              {"sigma", shortest(std::sqrt(l.variance))},
+              {"power", shortest(l.power)}};
+  if (l.level >= 0) out["level"] = shortest(l.level);
+  out["diffuse"] = lobe(l.diffuse_axis, l.diffuse_sharpness, l.diffuse);
+  out["specular"] = lobe(l.specular_axis, l.specular_sharpness, l.specular);
+  return out;
+}
+
+Json brdf(const gpu::Vpl& l) {
+  Json out = {{"diffuse", shortest(l.diffuse)},
+              {"f0", shortest(l.f0)},
+              {"ndf", l.ndf > 0   ? "ggx"
+                      : l.ndf < 0 ? "phong"
+                                  : "none"}};
+  if (l.ndf > 0) out["alpha"] = shortest(l.ndf);
+  if (l.ndf < 0) out["exponent"] = shortest(-l.ndf);
+  return out;
+}
+
+Json fields(const gpu::Vpl& l, const glm::dvec3& origin) {
+  Json out = {{"position", world(origin, l.position)},
+              {"power", shortest(l.power)},
+              {"flux", shortest(l.flux)},
+              {"incident", shortest(l.incident)},
+              {"normal", shortest(l.normal)},
+              {"geometric_normal", shortest(l.geometric_normal)},
+              {"brdf", brdf(l)}};
+  if (l.radius > 0) out["radius"] = shortest(l.radius);
+  if (l.clamp > 0) out["clamp"] = shortest(l.clamp);
+  return out;
+}
+
+template <class Light>
+void append(const std::vector<Light>& lights, const LightSet& set, const glm::dvec3& origin, Json* list) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (!(lights[i].power > 0)) continue;
+    Json light = {{"index", i}};
+    light.update(fields(lights[i], origin));
+    if (i < set.shapes.squares.size()) {
+      const glm::vec4& s = set.shapes.squares[i];
+      light["kernel"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
+    }
+    list->push_back(std::move(light));
+  }
+}
+
+// "/diffuse/axis/0" as "diffuse.axis.0".
+std::string column_of(const std::string& pointer) {
+  std::string name = pointer.substr(1);
+  std::replace(name.begin(), name.end(), '/', '.');
+  return name;
+}
+
+template <class Light>
+uint64_t without_power(const std::vector<Light>& lights) {
+  const auto dark = [](const Light& l) { return !(l.power > 0); };
+  return static_cast<uint64_t>(std::count_if(lights.begin(), lights.end(), dark));
+}
+
+}  // namespace
+
+uint64_t LightSet::empty() const { return without_power(vsgls) + without_power(vpls); }
+
+Json light_list(const LightSet& lights, const glm::dvec3& origin) {
+  Json list = Json::array();
+  append(lights.vsgls, lights, origin, &list);
+  append(lights.vpls, lights, origin, &list);
+  return list;
+}
+
+std::string to_csv(const Json& list) {
+  std::vector<Json> rows;
+  std::vector<std::string> columns;  // of all lights, as they first appear
+  for (const Json& light : list) {
+    rows.push_back(light.flatten());
+    for (const auto& [pointer, value] : rows.back().items()) {
+      if (std::find(columns.begin(), columns.end(), pointer) == columns.end()) columns.push_back(pointer);
+    }
+  }
+  std::string text;
+  for (const auto& pointer : columns) text += (text.empty() ? "" : ",") + column_of(pointer);
+  text += "\n";
+  for (const Json& row : rows) {
+    for (size_t i = 0; i < columns.size(); ++i) {
+      const auto cell = row.find(columns[i]);
+      if (i > 0) text += ",";
+      if (cell != row.end()) text += cell->is_string() ? cell->get<std::string>() : cell->dump();
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace vsglbench

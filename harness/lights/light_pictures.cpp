@@ -1,0 +1,296 @@
+#include "lights/light_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "image/draw.h"
+#include "image/metrics.h"
+#include "image/text.h"
+
+namespace vsglbench {
+namespace {
+
+constexpr glm::u8vec3 kPaper{22, 23, 27}, kInk{238, 238, 240}, kFaint{160, 163, 172};
+constexpr glm::u8vec3 kRed{255, 32, 32}, kOrange{255, 165, 40};
+constexpr uint32_t kMargin = 12, kScale = 2, kLine = (kGlyphHeight + 2) * kScale;
+constexpr uint32_t kLeastWidth = 1280;  // of a picture
+constexpr uint32_t kRsmEdge = 1024, kMostPixels = 16;
+
+// --- captions ---
+
+std::vector<std::string> wrapped(const std::vector<std::string>& lines, uint32_t width) {
+  std::vector<std::string> out;
+  for (const auto& line : lines) {
+    for (const auto& part : wrap_text(line, width, kScale)) out.push_back(part);
+  }
+  return out;
+}
+
+// The picture between two blocks of text.
+Bitmap framed(const Bitmap& picture, const std::vector<std::string>& above,
+              const std::vector<std::string>& below) {
+  const auto head = wrapped(above, picture.width), foot = wrapped(below, picture.width);
+  const auto lines = static_cast<uint32_t>(head.size() + foot.size());
+  Bitmap out(picture.width + 2 * kMargin, picture.height + 4 * kMargin + lines * kLine);
+  fill_rectangle(out, {0, 0}, {out.width, out.height}, {kPaper, 1});
+  uint32_t y = kMargin;
+  const auto write = [&](const std::vector<std::string>& text, glm::u8vec3 color) {
+    for (const auto& line : text) {
+      draw_text(out, kMargin, y, line, color, kScale);
+      y += kLine;
+    }
+    y += kMargin;
+  };
+  write(head, kInk);
+  for (uint32_t row = 0; row < picture.height; ++row)
+    std::copy_n(picture.at(0, row), size_t(3) * picture.width, out.at(kMargin, y + row));
+  y += picture.height + kMargin;
+  write(foot, kFaint);
+  return out;
+}
+
+// --- on the RSM ---
+
+// Square root of each value over the 99.5th percentile of those above 0.
+std::vector<float> brightness_of(const std::vector<float>& values) {
+  std::vector<float> lit;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(lit), [](float v) { return v > 0; });
+  std::vector<float> out(values.size(), 0);
+  if (lit.empty()) return out;
+  const auto top = lit.begin() + static_cast<ptrdiff_t>(0.995 * static_cast<double>(lit.size() - 1));
+  std::nth_element(lit.begin(), top, lit.end());
+  for (size_t i = 0; i < values.size(); ++i) out[i] = std::sqrt(std::clamp(values[i] / *top, 0.0f, 1.0f));
+  return out;
+}
+
+// Neighbouring numbers get hues far apart.
+glm::vec3 tint_of(uint32_t cluster) {
+  const float hue = 6 * std::fmod(0.618034f * static_cast<float>(cluster % 65536), 1.0f);
+  const glm::vec3 rgb(std::abs(hue - 3) - 1, 2 - std::abs(hue - 2), 2 - std::abs(hue - 4));
+  return glm::clamp(rgb, 0.0f, 1.0f);
+}
+
+// Maps texels of the RSM to pixels of its picture.
+struct Magnifier {
+  explicit Magnifier(uint32_t texels)
+      : rsm(texels),
+        scale(texels <= kRsmEdge ? std::min(kRsmEdge / texels, kMostPixels) : double(kRsmEdge) / texels),
+        pixels(static_cast<uint32_t>(std::lround(texels * scale))) {}
+  uint32_t texel(uint32_t x, uint32_t y) const {
+    const auto to = [&](uint32_t v) { return std::min(static_cast<uint32_t>((v + 0.5) / scale), rsm - 1); };
+    return to(y) * rsm + to(x);
+  }
+  uint32_t rsm;
+  double scale;  // pixels a texel
+  uint32_t pixels;
+};
+
+Bitmap draw_values(const LightSet& lights, const std::vector<float>& values, const Magnifier& m) {
+  const auto brightness = brightness_of(values);
+  const auto& clusters = lights.shapes.clusters;
+  Bitmap out(m.pixels, m.pixels);
+  for (uint32_t y = 0; y < m.pixels; ++y) {
+    for (uint32_t x = 0; x < m.pixels; ++x) {
+      const uint32_t t = m.texel(x, y);
+      glm::vec3 color(brightness[t]);
+      // A cell can be told from its neighbours where the PDF is dark, too.
+      if (!clusters.empty() && clusters[t] < lights.count())
+        color = (0.15f + 0.85f * brightness[t]) * glm::mix(glm::vec3(1), tint_of(clusters[t]), 0.5f);
+      for (int k = 0; k < 3; ++k) out.at(x, y)[k] = static_cast<uint8_t>(std::lround(255 * color[k]));
+    }
+  }
+  return out;
+}
+
+void draw_borders(Bitmap& bitmap, const std::vector<uint32_t>& clusters, const Magnifier& m) {
+  for (uint32_t y = 0; y < m.pixels; ++y) {
+    for (uint32_t x = 0; x < m.pixels; ++x) {
+      const uint32_t here = clusters[m.texel(x, y)];
+      const bool right = x + 1 < m.pixels && clusters[m.texel(x + 1, y)] != here;
+      const bool below = y + 1 < m.pixels && clusters[m.texel(x, y + 1)] != here;
+      if (right || below) fill_rectangle(bitmap, {x, y}, {x + 1, y + 1}, {kOrange, 0.9f});
+    }
+  }
+}
+
+void draw_squares(Bitmap& bitmap, const std::vector<glm::vec4>& squares, const Magnifier& m) {
+  for (const glm::vec4& s : squares) {
+    if (!(s.z > 0)) continue;
+    const glm::dvec2 centre(s), half(0.5 * s.z);
+    const glm::ivec2 from(glm::round(m.scale * (centre - half))), to(glm::round(m.scale * (centre + half)));
+    outline_rectangle(bitmap, from, glm::max(to, from + 1), {kOrange, 0.8f});
+  }
+}
+
+// In texels: the kernels' centres, or the lights' projected positions.
+std::vector<glm::dvec2> points_of(const LightSet& lights, const View& light) {
+  std::vector<glm::dvec2> points;
+  for (const glm::vec4& s : lights.shapes.squares) {
+    if (s.z > 0) points.emplace_back(s.x, s.y);
+  }
+  if (!lights.shapes.squares.empty()) return points;
+  for (const LightMark& mark : light_marks(lights)) {
+    if (const auto uv = light.project(mark.position)) points.push_back(double(lights.rsm) * glm::dvec2(*uv));
+  }
+  return points;
+}
+
+std::vector<std::string> rsm_legend(const LightSet& lights, const std::optional<Coverage>& c) {
+  std::vector<std::string> legend;
+  if (c) {
+    legend.push_back(fmt::format("overlap {:.3f}  gap {:.3f}  of the RSM's area", c->overlap, c->gap));
+    if (c->pdf_gap)
+      legend.push_back(
+          fmt::format("overlap {:.3f}  gap {:.3f}  weighted by p", *c->pdf_overlap, *c->pdf_gap));
+  }
+  const bool squares = !lights.shapes.squares.empty(), clusters = !lights.shapes.clusters.empty();
+  legend.push_back(squares    ? "red: kernel centres, orange: kernels"
+                   : clusters ? "red: lights as the primary light sees them, orange and tints: clusters"
+                              : "red: lights as the primary light sees them");
+  legend.push_back(lights.pdf.empty() ? "brightness: sqrt of diffuse reflectance (no PDF)"
+                                      : "brightness: sqrt(p / its 99.5th percentile)");
+  return legend;
+}
+
+// --- in the scene ---
+
+// 2π(1-e^{-2λ})/λ [MFIS16 App. A].
+double sg_integral(double sharpness) {
+  const double y = 2 * sharpness;
+  return 4 * std::numbers::pi * (y > 0 ? -std::expm1(-y) / y : 1);
+}
+
+glm::vec3 reflected(const gpu::Vsgl& l) {
+  return glm::vec3(sg_integral(l.diffuse_sharpness) * glm::dvec3(l.diffuse) +
+                   sg_integral(l.specular_sharpness) * glm::dvec3(l.specular));
+}
+glm::vec3 reflected(const gpu::Vpl& l) { return l.flux * (l.diffuse + l.f0); }
+
+// Direct light at a third of its brightness over a little of how surfaces face the camera, so that what is
+// not lit shows.
+Bitmap background(const CameraView& camera, uint32_t scale) {
+  Mask mask;
+  for (const auto& p : camera.position) mask.push_back(p.w > 0);
+  const Bitmap lit = tone_map(camera.direct, auto_exposure(camera.direct, mask));
+  Bitmap out(camera.direct.width * scale, camera.direct.height * scale);
+  for (uint32_t y = 0; y < out.height; ++y) {
+    for (uint32_t x = 0; x < out.width; ++x) {
+      const size_t i = size_t(y / scale) * camera.direct.width + x / scale;
+      const glm::vec3 to_eye = glm::normalize(camera.view.position - glm::vec3(camera.position[i]));
+      const float facing = mask[i] ? 15 + 45 * std::abs(glm::dot(to_eye, glm::vec3(camera.normal[i]))) : 0;
+      const uint8_t* from = lit.at(x / scale, y / scale);
+      for (int k = 0; k < 3; ++k)
+        out.at(x, y)[k] = static_cast<uint8_t>(std::lround(facing + 0.35f * from[k]));
+    }
+  }
+  return out;
+}
+
+// A light as the camera sees it, in pixels of the image.
+struct Disk {
+  glm::dvec2 centre;
+  double radius;
+  glm::u8vec3 color;
+  bool hidden;
+};
+
+// By the farthest surface of the pixel and its neighbours: on a slanted one a light lies between two pixels'.
+bool is_hidden(const LightMark& mark, const CameraView& camera, const glm::vec2& uv) {
+  const glm::ivec2 last(camera.direct.width - 1, camera.direct.height - 1);
+  const glm::ivec2 pixel(uv * glm::vec2(last + 1));
+  const float distance = glm::distance(mark.position, camera.view.position);
+  const float allowed = distance - mark.sigma - 1e-3f * distance;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      const glm::ivec2 at = glm::clamp(pixel + glm::ivec2(x, y), glm::ivec2(0), last);
+      const glm::vec4& surface = camera.position[static_cast<size_t>(at.y * (last.x + 1) + at.x)];
+      if (!(surface.w > 0) || glm::distance(glm::vec3(surface), camera.view.position) >= allowed)
+        return false;
+    }
+  }
+  return true;
+}
+
+// Of the lights within the camera's view, largest first, hidden ones before all others.
+std::vector<Disk> disks_of(const LightSet& lights, const CameraView& camera) {
+  std::vector<Disk> disks;
+  const glm::dvec2 size(camera.direct.width, camera.direct.height);
+  for (const LightMark& mark : light_marks(lights)) {
+    const auto uv = camera.view.project(mark.position);
+    if (!uv) continue;
+    const double depth = glm::dot(mark.position - camera.view.position, camera.view.forward);
+    disks.push_back({glm::dvec2(*uv) * size, 0.5 * size.y * mark.sigma / (depth * camera.view.extent.y),
+                     glm::u8vec3(glm::round(255.0f * mark.color)), is_hidden(mark, camera, *uv)});
+  }
+  std::sort(disks.begin(), disks.end(), [](const Disk& a, const Disk& b) {
+    return a.hidden != b.hidden ? a.hidden : a.radius > b.radius;
+  });
+  return disks;
+}
+
+std::vector<std::string> scene_legend(const LightSet& lights, const std::vector<Disk>& disks) {
+  const auto hidden = std::count_if(disks.begin(), disks.end(), [](const Disk& d) { return d.hidden; });
+  const char* marks = lights.kind == LightKind::vsgl  ? "dots: means, disks: sigma"
+                      : lights.kind == LightKind::vsl ? "dots: lights, disks: their radius"
+                                                      : "dots: lights";
+  return {fmt::format("{} of {} lights in view, {} of them hidden (rings)", disks.size(),
+                      lights.count() - lights.empty(), hidden),
+          fmt::format("{}; colour: of the flux; background: direct light, dimmed", marks)};
+}
+
+}  // namespace
+
+std::vector<LightMark> light_marks(const LightSet& lights) {
+  std::vector<LightMark> marks;
+  const auto add = [&](size_t i, const glm::vec3& position, float sigma, const glm::vec3& flux) {
+    const float top = std::max({flux.x, flux.y, flux.z, 1e-30f});
+    marks.push_back({static_cast<uint32_t>(i), position, sigma, glm::clamp(flux / top, 0.0f, 1.0f)});
+  };
+  for (size_t i = 0; i < lights.vsgls.size(); ++i) {
+    const gpu::Vsgl& l = lights.vsgls[i];
+    if (l.power > 0) add(i, l.mean, std::sqrt(l.variance), reflected(l));
+  }
+  for (size_t i = 0; i < lights.vpls.size(); ++i) {
+    const gpu::Vpl& l = lights.vpls[i];
+    if (l.power > 0) add(i, l.position, l.radius, reflected(l));
+  }
+  return marks;
+}
+
+Bitmap draw_on_rsm(const LightSet& lights, const View& light, const std::vector<float>& fallback,
+                   const std::optional<Coverage>& coverage, const std::vector<std::string>& captions) {
+  const Magnifier magnifier(lights.rsm);
+  Bitmap picture = draw_values(lights, lights.pdf.empty() ? fallback : lights.pdf, magnifier);
+  if (!lights.shapes.clusters.empty()) draw_borders(picture, lights.shapes.clusters, magnifier);
+  draw_squares(picture, lights.shapes.squares, magnifier);
+  for (const glm::dvec2& point : points_of(lights, light))
+    fill_disk(picture, magnifier.scale * point, 2.2, {kRed, 1});
+  return framed(picture, captions, rsm_legend(lights, coverage));
+}
+
+Bitmap draw_in_scene(const LightSet& lights, const CameraView& camera,
+                     const std::vector<std::string>& captions) {
+  const uint32_t scale = std::max(1u, (kLeastWidth + camera.direct.width - 1) / camera.direct.width);
+  Bitmap picture = background(camera, scale);
+  auto disks = disks_of(lights, camera);
+  double area = 0;
+  for (Disk& d : disks) {
+    d.centre *= scale;
+    d.radius = std::max(scale * d.radius, 2.5);
+    area += std::numbers::pi * d.radius * d.radius;
+  }
+  // The more the disks pile up the fainter, so that what is behind them shows.
+  const double pixels = double(picture.width) * picture.height;
+  const auto opacity = static_cast<float>(std::clamp(0.15 * pixels / std::max(area, 1.0), 0.02, 0.3));
+  for (const Disk& d : disks) {
+    if (!d.hidden) fill_disk(picture, d.centre, d.radius, {d.color, opacity});
+    outline_disk(picture, d.centre, d.radius, 1.2, {d.color, d.hidden ? 0.3f : 0.6f});
+  }
+  for (const Disk& d : disks) {
+    if (!d.hidden) fill_disk(picture, d.centre, 2.5, {d.color, 1});
+  }
+  return framed(picture, captions, scene_legend(lights, disks));
+}
+
+}  // namespace vsglbench
