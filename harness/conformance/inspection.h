@@ -28,7 +28,7 @@ class Inspection {
   // Tells the parent which input comes, then runs `body`. What `body` throws is a failure of this input, but
   // for a lost device, which ends the check. `large`: a device without room for it leaves it out.
   void on(const std::string& input, const std::function<void()>& body, bool large = false);
-  // Of the present input: "<what came>; expected <what>".
+  // A fault on the present input: "<what came>; expected <what>".
   void found(const std::string& fault);
   // A figure of the present input, for the report.
   void measured(const std::string& figure);

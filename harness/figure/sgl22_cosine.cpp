@@ -38,7 +38,7 @@ double error_bound(double lambda) {
   return (1 + half) * lambda * difference / denominator(lambda) - 1;
 }
 
-// Of a function with one valley in [low, high], by golden section in the logarithm.
+// The argument at the bottom of a function with one valley in [low, high]: golden section in the logarithm.
 double least_argument(double low, double high, double (*f)(double)) {
   double a = std::log(low), b = std::log(high);
   constexpr double kGolden = 1 / std::numbers::phi;

@@ -8,9 +8,9 @@
 
 namespace vsglbench {
 
-// as_written  what GLSL's `precise` says: those operations and no others are evaluated one by one
-// never       every arithmetic operation is evaluated by itself (SPIR-V's NoContraction on all)
-// always      none need be: every `precise` is ignored
+// as_written  operations that GLSL's `precise` marks are evaluated one by one; a driver may fuse any other
+// never       every arithmetic operation is marked so (SPIR-V's NoContraction on all)
+// always      none is marked: every `precise` is ignored, and a driver may fuse what it likes
 enum class Contraction { as_written, never, always };
 
 // $VSGLBENCH_CONTRACTION: "never", "always"; absent or anything else: as_written.

@@ -32,8 +32,8 @@ struct NeededFeatures {
 // First family with graphics and compute, or -1.
 int find_queue_family(VkPhysicalDevice device, uint32_t* timestamp_bits);
 std::vector<std::string> missing_features(VkPhysicalDevice device);
-// Of optional_entries(), by Vulkan's name, and `subgroup.<kind>` for each kind of subgroup operation that
-// compute shaders may use.
+// The names in Vulkan of those of optional_entries() that the device has, and `subgroup.<kind>` for each kind
+// of subgroup operation that compute shaders may use.
 std::vector<std::string> optional_features(VkPhysicalDevice device);
 DeviceInfo describe_device(VkPhysicalDevice device, uint32_t index);
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);

@@ -32,7 +32,7 @@ class LoopCheck {
       "  if (rounds < bound) vsglbench_ended = vsglbench_kernel;\n"
       "}\n";
 
-  // Of this device; null where it is no CPU.
+  // The check of this device; null where it is no CPU.
   static LoopCheck* of(const Device& device);
   static void create(Device& device);  // by the device, at its start and end
   static void destroy(const Device& device);

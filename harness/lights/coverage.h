@@ -19,8 +19,8 @@ struct RsmShapes {
 // Throws Error(plugin) for a square that is not finite or of negative side, and a texel outside of the RSM.
 RsmShapes read_shapes(const LightShapes& shapes, uint32_t lights, uint64_t texels);
 
-// Of an area of which c lights hold each texel, whole or in part. overlap + gap is the mean of |c - 1|: how
-// far the lights are from holding every texel once.
+// How evenly lights hold an area, of which c lights hold each texel, whole or in part. overlap + gap is the
+// mean of |c - 1|: how far the lights are from holding every texel once.
 struct Coverage {
   double overlap = 0;  // mean of max(c - 1, 0): 1 where every texel has one light too many
   double gap = 0;      // mean of max(1 - c, 0): 1 where no texel has one
@@ -29,17 +29,17 @@ struct Coverage {
   std::optional<double> pdf_overlap, pdf_gap;
 };
 
-// Of filtering kernels (LightShapes::squares): each is a trilinear filter at its centre, whose mip level l
-// has texels as large as its side, and its light stands for 4^l texels of the filtered mean. The texels that
-// the taps read count by their weights in that; so a light of `mfis` at K = 1 counts each as often as it
-// carries the texel's flux. `pdf`: of any scale, row by row; may be empty.
+// Coverage by filtering kernels (LightShapes::squares): each is a trilinear filter at its centre, whose mip
+// level l has texels as large as its side, and its light stands for 4^l texels of the filtered mean. The
+// texels that the taps read count by their weights in that; so a light of `mfis` at K = 1 counts each as
+// often as it carries the texel's flux. `pdf` has any scale, row by row; it may be empty.
 Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, uint32_t height,
                        const std::vector<float>& pdf);
-// Of a partition: no overlap.
+// Coverage by a partition, which has no overlap.
 Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
                         const std::vector<float>& pdf);
 
-// Of either; nothing where the method defines no shapes.
+// Coverage by either; nothing where the method defines no shapes.
 std::optional<Coverage> coverage_of(const RsmShapes& shapes, uint32_t lights, uint32_t width, uint32_t height,
                                     const std::vector<float>& pdf);
 

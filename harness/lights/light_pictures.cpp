@@ -212,7 +212,7 @@ bool is_hidden(const LightMark& mark, const CameraView& camera, const glm::vec2&
   return true;
 }
 
-// Of the lights within the camera's view, largest first, hidden ones before all others.
+// The disks of the lights within the camera's view, largest first, hidden ones before all others.
 std::vector<Disk> disks_of(const LightSet& lights, const CameraView& camera) {
   std::vector<Disk> disks;
   const glm::dvec2 size(camera.direct.width, camera.direct.height);

@@ -129,9 +129,9 @@ Pyramid::Pyramid(const Half& half) : width_(half.emitter.width), height_(half.em
 
 namespace {
 
-// Of the upper of two texels on one axis, the last of which may cover a part c of its block: such that its
-// weight at all base texels together is what it covers. Linear weights are for c >= 1/2; below, their sum is
-// (1/2 + c)²/2.
+// The weight of the upper of two texels on one axis, the last of which may cover a part c of its block: such
+// that its weight at all base texels together is what it covers. Linear weights are for c >= 1/2; below,
+// their sum is (1/2 + c)²/2.
 double upper_weight(uint32_t base, uint32_t level, uint32_t upper, double f) {
   const double block = 1u << level, c = std::min(1.0, base / block - upper);
   return c < 0.5 ? f * c / ((0.5 + c) * (0.5 + c) / 2) : f;

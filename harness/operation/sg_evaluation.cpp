@@ -112,7 +112,7 @@ double error_of(SgError kind, double value, double exact) {
   return difference / size / (kind == SgError::exponential ? 1 + std::abs(std::log(size)) : 1);
 }
 
-// Of one row; the exact value goes to *exact.
+// The error of one row; the exact value goes to *exact.
 double error_of_shade(const SgQuestion& q, const float* arguments, double value, double* exact) {
   const sg_shade::Answer answer = sg_shade::answer(arguments, q.kernel);
   *exact = answer.value;

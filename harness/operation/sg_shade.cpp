@@ -116,7 +116,7 @@ Bounds bounds(const Scene& scene) {
   const double distance2 = glm::dot(dvec3(l.mean), dvec3(l.mean));
   const double variance = std::max<double>(l.variance, distance2 * 0x1p-41), sharpness = distance2 / variance;
   const double albedo = scene.surface.diffuse.x, scale = 1 / (2 * pi * variance);
-  // Of the specular lobe, peak · V n·l multiplies what may have underflown before.
+  // In the specular lobe, peak · V n·l multiplies what may have underflown before.
   const double ndf = scene.surface.ndf,
                nv = std::max(glm::dot(scene.surface.normal, scene.surface.view), 0.01);
   const double peak = ndf > 0 ? 1 / (pi * ndf * ndf) : (2 - ndf) / (2 * pi);

@@ -11,8 +11,8 @@
 
 namespace vsglbench::sg_shade {
 
-// Of a row. The light's mean stands at `distance` from the surface, in a direction of this cosine with the
-// normal, at `light_azimuth` from the viewer's. Its lobes' axes make these angles with the way to the
+// What a row asks. The light's mean stands at `distance` from the surface, in a direction of this cosine with
+// the normal, at `light_azimuth` from the viewer's. Its lobes' axes make these angles with the way to the
 // surface: 0 shines at it, 3.1415927 away from it. Intensities are c_v, W/sr; `ndf` > 0: GGX α, < 0: minus
 // the Phong exponent. `frame` 0: the normal is z; else all directions are turned so that no coordinate plane
 // is favoured.

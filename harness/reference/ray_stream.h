@@ -36,7 +36,7 @@ class alignas(128) RayStream {
     return tracer_->occluded(a, b);
   }
 
-  // Of a packet; lanes that are off are no rays.
+  // Which lanes of a packet are occluded, as bits; lanes that are off are no rays.
   uint32_t occluded(const SegmentPacket& packet) {
     for (int i = 0; i < SegmentPacket::width; ++i) rays_ += packet.end[i] >= 0;
     if (log_) log_lanes(packet);

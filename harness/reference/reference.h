@@ -64,8 +64,8 @@ struct ReferenceResult {
   Image half[2];                 // means of the even and of the odd batches
   std::vector<uint8_t> mask;     // 1 where the camera sees a surface
   double noise_floor_smape = 0;  // noise_floor_of() the halves over the mask, `smape-0-200`
-  // Of the mean over the mask's pixels and channels, relative to it, from the scatter of the batches' means.
-  // The pixels share their x1, so that `variance` alone doesn't tell it.
+  // The standard error of the mean over the mask's pixels and channels, relative to it, from the scatter of
+  // the batches' means. The pixels share their x1, so that `variance` alone doesn't tell it.
   double standard_error = 0;
   ReferenceEnd ended_by = ReferenceEnd::samples;
   uint32_t samples = 0;  // a pixel, done

@@ -8,8 +8,8 @@
 
 namespace vsglbench {
 
-// Of ids "SCENE/METHOD/KEY=VALUE,KEY=VALUE"; a key that has one value in all `cases` is left out of their
-// names.
+// Short names for ids "SCENE/METHOD/KEY=VALUE,KEY=VALUE": a key that has one value in all `cases` is left out
+// of their names.
 class CaseNames {
  public:
   explicit CaseNames(const std::vector<const CaseResult*>& cases);

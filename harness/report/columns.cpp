@@ -90,7 +90,7 @@ Column time_column(const char* name, const char* head, bool interval = false) {
   return column;
 }
 
-// Of light generation, to the scene's first sound case.
+// The ratio of light generation to that of the scene's first sound case.
 std::optional<Ratio> ratio_to(const CaseResult& c, const CaseResult& first) {
   const Summary &a = c.generate->total, &b = first.generate->total;
   if (a.min <= 0 || b.min <= 0) return std::nullopt;  // the device's clock saw no time pass

@@ -11,7 +11,7 @@ namespace vsglbench {
 
 struct Column {
   std::string name, head;  // name: as `vsglbench table --columns` takes it
-  // Of an ok case, beside the first one of its scene. Empty where the case has no such number.
+  // The cell of an ok case, beside the first one of its scene. Empty where the case has no such number.
   using Cell = std::function<std::string(const CaseResult& c, const CaseResult& first)>;
   Cell cell;    // with its interval
   Cell number;  // without
@@ -19,8 +19,8 @@ struct Column {
   std::function<std::string(const Report& report, const std::string& scene)> floor;
 };
 
-// Of whole frames: errors are means over seeds, and one that is not above the reference's own noise is
-// followed by "≤ floor VALUE"; times are medians in ms.
+// Columns for whole frames: errors are means over seeds, and one that is not above the reference's own noise
+// is followed by "≤ floor VALUE"; times are medians in ms.
 const std::vector<Column>& frame_columns();
 // Where only generation was measured: times of both halves and of either, and their ratio to the scene's
 // first sound case.

@@ -7,7 +7,7 @@
 namespace vsglbench {
 namespace {
 
-// Of `seeds` frames without visibility.
+// The flux of `seeds` frames without visibility.
 std::vector<double> flux(const std::string& scene, const std::string& method, const Json& own,
                          Importance importance, uint32_t seeds) {
   Laboratory lab(scene);

@@ -14,7 +14,7 @@
 
 namespace vsglbench {
 
-// One scene, its device data and its references, shared by the tests below.
+// One scene, its device data and its references, shared by the tests of a file.
 class Laboratory {
  public:
   static constexpr uint32_t kWidth = 96, kHeight = 54;
@@ -34,8 +34,8 @@ class Laboratory {
                Visibility visibility) {
     return render(method, own, {.rsm = rsm, .lights = lights, .visibility = visibility});
   }
-  // Of kWidth × kHeight pixels and importance_lights, whatever `p` says. What is not const below is of the
-  // last one.
+  // A frame of kWidth × kHeight pixels and importance_lights, whatever `p` says. The members below that are
+  // not const tell what the last frame left.
   Image render(const std::string& method, const Json& own, FrameParameters p, uint32_t seed = 0) {
     p.width = kWidth;
     p.height = kHeight;

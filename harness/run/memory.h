@@ -20,7 +20,8 @@ struct MemoryNeed {
   uint64_t host = 0, device = 0;
 };
 MemoryNeed reference_memory(uint32_t width, uint32_t height);
-// Of one frame. `lights`: as many as the method makes; bits of exact visibility are kept for each of them.
+// What one frame needs. `lights`: as many as the method makes; bits of exact visibility are kept for each of
+// them.
 MemoryNeed frame_memory(const Case& c);
 
 // Throws Error(case_failed) when what the case needs, beside `taken` bytes that others of its scene will

@@ -136,7 +136,7 @@ TEST_F(PluginFault, LightsOfMoreThanTheMethodStatesAreRefused) {
       {"× the texels' power (geometric mean of 1 seeds), and it states at most 1.05 in the mean"});
 }
 
-// Of a black scene only the generation can be measured: there is no picture to score.
+// Only generation can be measured in a black scene: there is no picture to score.
 TEST_F(PluginFault, PowerFromNothingIsRefused) {
   Json gltf = box_gltf();
   gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 1};

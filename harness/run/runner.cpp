@@ -115,7 +115,7 @@ WallTime sum(const WallTime& earlier, WallTime now, double total_s) {
   return now;
 }
 
-// Of everything that is compiled at run time, and of the methods' plugins.
+// The hash of everything that is compiled at run time, and of the methods' plugins.
 std::string sources_hash(const Config& config) {
   std::set<std::string> methods;
   for (const Case& c : config.cases) methods.insert(c.method);

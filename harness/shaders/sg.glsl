@@ -37,7 +37,7 @@ float sg_integral_over_2pi(float sharpness) {
 // A(λ) = ∫G dω = 2π(1-e^{-2λ})/λ, 4π at 0 [MFIS16 App. A]. Error < 7e-7.
 float sg_integral(float sharpness) { return 2.0 * PI * sg_integral_over_2pi(sharpness); }
 
-// Of the von Mises–Fisher density G/A(κ). Error < 1e-6.
+// The factor of the von Mises–Fisher density G/A(κ). Error < 1e-6.
 float vmf_normalization(float sharpness) { return 1.0 / sg_integral(sharpness); }
 
 // Product of two SGs: another SG times exp(log_amplitude), with log_amplitude = λ-λ1-λ2 evaluated as

@@ -17,7 +17,7 @@ double expm1_over_x(double x);
 double sg_value(const glm::dvec3& direction, const glm::dvec3& axis, double sharpness);
 // A(λ) = ∫G dω = 2π(1-e^{-2λ})/λ; 4π at 0 [MFIS16 App. A].
 double sg_integral(double sharpness);
-// Of the von Mises–Fisher density G/A(κ).
+// The factor of the von Mises–Fisher density G/A(κ).
 double vmf_normalization(double sharpness);
 
 // G(ω;ξ1,λ1) G(ω;ξ2,λ2) = e^{log_amplitude} G(ω;axis,sharpness). Where the two cancel, axis is ξ1.

@@ -168,7 +168,7 @@ double hemispherical_integral(double cosine, double sharpness) {
   return q.integrate(start, last(start, sharpness, 2));
 }
 
-// Of the fraction f(u) of a circle that is above the horizon, f(u) + f(2-u) = 1: so with
+// The fraction f(u) of a circle that is above the horizon has f(u) + f(2-u) = 1: so with
 // w(u) = e^{-κu} - e^{-κ(2-u)}, s = ∫₀¹ f w du / ∫₀¹ w du, a mean of what is never negative.
 double normalized_hemisphere(double cosine, double sharpness) {
   const Horizon horizon(cosine);

@@ -83,7 +83,7 @@ struct Sight {
     direction = to_mean / std::sqrt(distance2);
     variance = std::max((disk ? 0.5 : 1) * static_cast<double>(light.variance), distance2 * kLeastVariance);
   }
-  // Of the disk of radius r, r² = 2σ² [VSGL14 §3.1]: 2π(1-cosθ) = 4π sin²(θ/2), tan θ = r/d.
+  // The disk that the light is seen as has r² = 2σ² [VSGL14 §3.1]: 2π(1-cosθ) = 4π sin²(θ/2), tan θ = r/d.
   double radius2() const { return 2 * variance; }
   double solid_angle() const {
     return 4 * pi * square(std::sin(0.5 * std::atan2(std::sqrt(radius2()), std::sqrt(distance2))));

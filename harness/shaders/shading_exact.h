@@ -36,8 +36,8 @@ Peak reflected_lobe(const Surface& surface);
 // The surface that a point light stands on, seen from the primary light.
 Surface surface_of(const gpu::Vpl& light);
 
-// Of a VSGL, in the order of GLSL's SHADING_MODEL: products of SGs [MFIS16 App. C], or triple products with
-// the disk that the light is seen as [VSGL14 §3.1].
+// How a VSGL shades, in the order of GLSL's SHADING_MODEL: products of SGs [MFIS16 App. C], or triple
+// products with the disk that the light is seen as [VSGL14 §3.1].
 enum class VsglModel { vsgl16, vsgl14 };
 
 struct VsglShading {

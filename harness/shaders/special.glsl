@@ -1,6 +1,6 @@
 // Functions that GLSL lacks, or has with too wide a bound: Vulkan allows exp(x) an error of 3+2|x| ulp, and
 // log(x) an absolute one of 2^-21 near 1 (so Higham's (u-1)/log(u) for expm1(x)/x loses all digits there).
-// Of a device only +, -, * (correctly rounded), / (2.5 ulp) and conversions are relied upon here.
+// Only +, -, * (correctly rounded), / (2.5 ulp) and conversions of a device are relied upon here.
 // Bounds are relative, in single precision, unless they say "absolute"; sg_evaluation_test.cpp measures them.
 //
 // `precise` keeps an operation as written: not fused, not regrouped. Drivers do simplify (a+b)-a to b.

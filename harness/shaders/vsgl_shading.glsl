@@ -50,13 +50,13 @@ float shading_variance(Vsgl light, float distance2) {
   return max(variance, distance2 * 4.5474735e-13);
 }
 
-// Of the disk that a light is seen as, r² = 2σ² of the variance in three dimensions [VSGL14 §3.2], whatever
+// r² of the disk that a light is seen as: 2σ² of the variance in three dimensions [VSGL14 §3.2], whatever
 // VARIANCE says.
 float disk_radius2(Vsgl light, float distance2) {
   return 2.0 * max(light.variance, distance2 * 4.5474735e-13);
 }
 
-// `nothing` comes back for a light of no power.
+// A light of no power gives black, whatever its other fields hold.
 vec3 shade_vsgl(Receiver r, Vsgl light) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);

@@ -27,7 +27,7 @@ struct SceneCase {
   Scene scene;
   uint32_t lights = 16;
 };
-// Of every scene case's frame: the camera's image, and an RSM of as many texels a side.
+// The size of every scene case's frame: the camera's image, and an RSM of as many texels a side.
 inline constexpr uint32_t kSceneWidth = 40, kSceneHeight = 24, kSceneRsm = 24;
 
 struct HardCase {

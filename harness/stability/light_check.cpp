@@ -133,7 +133,7 @@ void check_filtered(const LightsAsked& asked, oracle::Rule rule, const LightReco
   }
 }
 
-// Of a texel alone, m²; infinity for one without power.
+// The variance of a texel alone, m²; infinity for one without power.
 double own_variance(const oracle::Sums& texel) {
   const oracle::Vsgl v = oracle::make_vsgl(texel, 1);
   return v.power > 0 ? v.variance : std::numeric_limits<double>::infinity();

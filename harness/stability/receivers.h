@@ -23,8 +23,8 @@ oracle::Half scattered_receivers(const oracle::Half& half, const std::vector<Lig
 // Each at `sigmas` σ plus `metres` from one of the lights.
 oracle::Half receivers_at_lights(const oracle::Half& half, const std::vector<LightSpot>& spots, double sigmas,
                                  double metres);
-// Of lights that lie close together: cosines of the direction to them and of the view with the normal. A
-// negative one: the lights are behind.
+// Receivers of lights that lie close together, at these cosines of the direction to them and of the view with
+// the normal. A negative one: the lights are behind.
 oracle::Half receivers_at_angles(const oracle::Half& half, const std::vector<LightSpot>& spots,
                                  double light_cosine, double view_cosine);
 // In the mirror directions of the half's texels, mirroring them to the eye but for lobe widths; their normal

@@ -182,7 +182,7 @@ Exactly<Light> exactly(const LightRecords& records, const exact::VsglShading& sh
   return {std::move(lights), shading};
 }
 
-// Of lights whose shading has no value to compare with.
+// The check of lights whose shading has no value to compare with.
 void check_possible(std::span<const glm::vec3> pixels, bool black, Judgement* verdict) {
   verdict->note("pixels have no double form: looked at for NaN, Inf and sign");
   for (size_t i = 0; i < pixels.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kShifts = 8;  // of the lattice, for the lights' mean power
 
-// Of VSGLs: the kernel, and what the row's parameters say.
+// The shading of VSGLs: the diffuse model, and what the row's parameters say.
 Shading shading_of(const StabilityRow& row, const std::string& diffuse) {
   Shading shading;
   for (const ShadingAxis& axis : shading_axes()) {

@@ -2,7 +2,7 @@
 
 #include "bad_method.h"
 
-// Of a header of another version only `abi` may be read.
+// Only `abi` may be read of a header of another version.
 extern "C" const vsglbench::PluginHeader* vsglbench_plugin() {
   static const vsglbench::PluginHeader header{vsglbench::plugin_abi + 1,
                                               []() -> vsglbench::MethodInfo { std::abort(); }};
