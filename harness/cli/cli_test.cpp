@@ -11,8 +11,8 @@ namespace vsglbench {
 namespace {
 
 TEST_F(CliTest, EveryCommandHasHelpWithAnExample) {
-  for (const char* command : {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size",
-                              "kernels", "table"}) {
+  for (const char* command :
+       {"run", "list", "reference", "doctor", "new-method", "check-method", "code-size", "blocks", "table"}) {
     const Finished f = run({command, "--help"});
     EXPECT_EQ(f.code, 0);
     EXPECT_TRUE(contains(f.out, "Example"));
@@ -58,19 +58,20 @@ TEST_F(CliTest, ListsAreTextOrJson) {
   }
 }
 
-TEST_F(CliTest, KernelsTimesABlockAndWritesItDown) {
-  const std::string file = (folder_ / "kernels.json").string();
+TEST_F(CliTest, BlocksTimesABlockAndWritesItDown) {
+  const std::string file = (folder_ / "blocks.json").string();
   const Finished f =
-      run({"kernels", "sort", "-q", "--sizes", "1000", "3000", "--repetitions", "2", "--out", file});
+      run({"blocks", "sort", "-q", "--sizes", "1000", "3000", "--repetitions", "2", "--out", file});
   EXPECT_EQ(f.code, 0) << f.err;
   EXPECT_TRUE(contains(f.out, "std::sort"));
   EXPECT_TRUE(contains(f.out, "grows as size^"));
   const Json report = Json::parse(read_text(file));
-  EXPECT_EQ(report.at("schema"), "vsglbench.kernels/1");
+  EXPECT_EQ(report.at("schema"), "vsglbench.blocks/1");
   EXPECT_FALSE(report.at("blocks").at(0).at("times").empty());
-  expect_refused(run({"kernels", "bubble"}), 2, "bubble");
-  expect_refused(run({"kernels", "sort", "--sizes", "0"}), 2, "sizes");
-  expect_refused(run({"kernels", "sort", "-q", "--out", folder_.string()}), 2, "is a folder");
+  expect_refused(run({"blocks", "bubble"}), 2, "bubble");
+  expect_refused(run({"kernels", "bubble"}), 2, "bubble");  // the old name
+  expect_refused(run({"blocks", "sort", "--sizes", "0"}), 2, "sizes");
+  expect_refused(run({"blocks", "sort", "-q", "--out", folder_.string()}), 2, "is a folder");
 }
 
 TEST_F(CliTest, CodeSizeHasARowForEachMethod) {

@@ -19,7 +19,7 @@ void add_doctor_command(CLI::App& app, CommandResult* result);
 void add_check_method_command(CLI::App& app, CommandResult* result);
 void add_new_method_command(CLI::App& app, CommandResult* result);
 void add_code_size_command(CLI::App& app, CommandResult* result);
-void add_kernels_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
+void add_blocks_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_figure_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_metrics_command(CLI::App& app, CommandResult* result);

@@ -37,7 +37,7 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
     EXPECT_GT(read_png(folder(method) / "scene.png").width, 900u) << method;
     const Json j = json(method);
     expect_numbers(j);
-    EXPECT_EQ(j.at("schema"), "vsglbench.lights/1");
+    EXPECT_EQ(j.at("schema"), "vsglbench.lights/2");
     EXPECT_EQ(j.at("case"), std::string("cornell/") + method + "/N=16,rsm=16,vis=exact");
     EXPECT_EQ(j.at("seed"), 5);
     EXPECT_EQ(j.at("config").at("name"), "tiny");
@@ -46,7 +46,7 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
     EXPECT_GT(j.at("lights").size(), 0u);
     EXPECT_EQ(j.contains("coverage"), std::string(method) != "vpl");
   }
-  EXPECT_TRUE(json("mfis").at("lights")[0].contains("kernel"));
+  EXPECT_TRUE(json("mfis").at("lights")[0].contains("footprint"));
   EXPECT_EQ(json("kmeans2d").at("coverage").at("overlap"), 0);
   EXPECT_TRUE(json("vpl").at("lights")[0].contains("brdf"));
   const std::string table = read_text(out_ / "coverage.csv");

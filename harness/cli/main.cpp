@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   add_check_method_command(app, &result);
   add_new_method_command(app, &result);
   add_code_size_command(app, &result);
-  add_kernels_command(app, arguments, &result);
+  add_blocks_command(app, arguments, &result);
   add_lights_command(app, arguments, &result);
   add_metrics_command(app, &result);
   add_sg_command(app, &result);

@@ -13,7 +13,7 @@ namespace vsglbench {
 namespace {
 
 struct SgOptions {
-  std::string kernel, function = "clamped_cosine", device;
+  std::string model, function = "clamped_cosine", device;
   std::filesystem::path in, out;
   uint64_t random = 0, seed = 1;
 };
@@ -29,24 +29,24 @@ std::string help() {
                         error_name(f.error));
   }
   return text +
-         "Example: printf 'cosine,sharpness\\n0.5,8\\n' | vsglbench sg --kernel tokuyoshi2024\n"
-         "         vsglbench sg --kernel tokuyoshi2022 --random 1000000 --seed 7\n"
+         "Example: printf 'cosine,sharpness\\n0.5,8\\n' | vsglbench sg --model tokuyoshi2024\n"
+         "         vsglbench sg --model tokuyoshi2022 --random 1000000 --seed 7\n"
          "         vsglbench sg --function receiver --out receiver.csv";
 }
 
 SgQuestion question(const SgOptions& o) {
   SgQuestion q{sg_function(o.function)};
   const bool hemisphere = q.function == SgFunction::hemisphere;
-  q.kernel = diffuse_kernel(!o.kernel.empty() ? o.kernel : hemisphere ? "tokuyoshi2022" : "cosine");
-  using enum exact::DiffuseKernel;
-  if (hemisphere && q.kernel != meder_bruederlin && q.kernel != tokuyoshi2022) {
+  q.model = diffuse_model(!o.model.empty() ? o.model : hemisphere ? "tokuyoshi2022" : "cosine");
+  using enum exact::DiffuseModel;
+  if (hemisphere && q.model != meder_bruederlin && q.model != tokuyoshi2022) {
     throw fail(ErrorKind::usage,
-               "--kernel {} has no hemispherical integral of its own; use meder-bruederlin or "
+               "--model {} has no hemispherical integral of its own; use meder-bruederlin or "
                "tokuyoshi2022",
-               o.kernel);
+               o.model);
   }
-  if (!o.kernel.empty() && !q.has_kernel()) {
-    throw fail(ErrorKind::usage, "--kernel means nothing to --function {}", o.function);
+  if (!o.model.empty() && !q.has_model()) {
+    throw fail(ErrorKind::usage, "--model means nothing to --function {}", o.function);
   }
   return q;
 }
@@ -147,8 +147,8 @@ int report_random(SgEvaluator& evaluator, const SgOptions& o, const std::vector<
                   const SgAnswers& a) {
   const SgQuestion& q = evaluator.question();
   const ErrorSpread spread = error_spread(q, a);
-  const std::string kernel = q.has_kernel() ? " " + q.kernel_name() : "";
-  fmt::print("{}{}, {} random rows, seed {}: {} p50 {:.2e}, p99 {:.2e}, max {:.2e}\n", q.info().name, kernel,
+  const std::string model = q.has_model() ? " " + q.model_name() : "";
+  fmt::print("{}{}, {} random rows, seed {}: {} p50 {:.2e}, p99 {:.2e}, max {:.2e}\n", q.info().name, model,
              o.random, o.seed, error_name(q.info().error), spread.p50, spread.p99, spread.max);
   fmt::print("largest: {}\n", reproducer(q, row_of(q, rows, spread.worst)));
   if (spread.impossible.empty()) return 0;
@@ -178,8 +178,9 @@ void add_sg_command(CLI::App& app, CommandResult* result) {
   CLI::App* command =
       app.add_subcommand("sg", "evaluate a spherical-Gaussian operation on the GPU, with its error");
   command->footer(help());
-  command->add_option("--kernel", options->kernel,
-                      fmt::format("diffuse kernel: {}", fmt::join(exact::diffuse_kernel_names(), ", ")));
+  command->add_option("--model", options->model,
+                      fmt::format("diffuse model: {}", fmt::join(exact::diffuse_model_names(), ", ")));
+  command->add_option("--kernel", options->model)->group("");  // its name of version 0.1.0, for one release
   command->add_option("--function", options->function, "what to evaluate (default clamped_cosine)");
   command->add_option("--in", options->in, "CSV file; none: standard input (receiver: its own table)");
   command->add_option("--out", options->out, "CSV file; none: standard output");

@@ -68,7 +68,7 @@ TEST_F(SgCommand, RefusesBadInputWithFileAndLine) {
   expect_refused("cosine,sharpness\n0,0\n", "in.csv:2: sharpness is 0", {"--kernel", "pettineo-hill"});
   expect_refused("axis_x,axis_y,axis_z,sharpness,eta_x,eta_y\n1,1,0,1,1,1\n",
                  "in.csv:2: the axis has length 1.414", {"--function", "asg_product"});
-  expect_refused("", "no diffuse kernel 'tokuyoshi2023'; did you mean", {"--kernel", "tokuyoshi2023"});
+  expect_refused("", "no diffuse model 'tokuyoshi2023'; did you mean", {"--kernel", "tokuyoshi2023"});
   expect_refused("", "no function 'integal'", {"--function", "integal"});
   expect_refused("", "has no hemispherical integral", {"--function", "hemisphere", "--kernel", "cosine"});
   expect_refused("", "means nothing to --function integral",

@@ -60,7 +60,7 @@ void add_stability_command(CLI::App& app, CommandResult* result) {
   CLI::App* command =
       app.add_subcommand("stability", "hold lights and pixels of hard cases to double precision");
   command->footer(fmt::format(
-      "A line a cell: verdict, worst relative error, case, method, diffuse kernel, and where that error is.\n"
+      "A line a cell: verdict, worst relative error, case, method, diffuse model, and where that error is.\n"
       "  ok        within {:g} of the same formula in double precision, and nothing impossible\n"
       "  bias      finite and not negative, but off by more, or power beyond the method's flux_bound\n"
       "  bad       NaN, Inf, negative, off by more than {:g}; an error where none is due; a crash\n"
@@ -72,7 +72,7 @@ void add_stability_command(CLI::App& app, CommandResult* result) {
   command->add_option("--method", options->methods, "only this one; may come again (default: all)");
   command->add_option("--case", options->cases, "only this one; may come again (default: all)");
   command->add_option("--diffuse", options->diffuse,
-                      "only this diffuse kernel; may come again (default: all)");
+                      "only this diffuse model; may come again (default: all)");
   command->add_option("--time-limit", options->silence_s, "seconds that a case may take before it is stopped")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -73,7 +73,7 @@ TEST(StabilityCommand, ABadMethodIsBadAndNothingElse) {
 TEST(StabilityCommand, RefusesWhatItDoesNotKnow) {
   expect_refused({"--case", "on-ligth"}, "no case 'on-ligth'; did you mean 'on-light'?");
   expect_refused({"--method", "mfiss"}, "mfis");
-  expect_refused({"--diffuse", "tokuyoshi"}, "no diffuse kernel 'tokuyoshi'");
+  expect_refused({"--diffuse", "tokuyoshi"}, "no diffuse model 'tokuyoshi'");
   expect_refused({"--time-limit", "0"}, "--time-limit");
 }
 

@@ -8,10 +8,10 @@
 
 namespace vsglbench::sgl22 {
 
-// The diffuse kernels, in the order of exact::diffuse_kernel_names().
-constexpr size_t kKernels = 5;
-inline const std::string& name(exact::DiffuseKernel kernel) {
-  return exact::diffuse_kernel_names()[static_cast<size_t>(kernel)];
+// The diffuse models, in the order of exact::diffuse_model_names().
+constexpr size_t kModels = 5;
+inline const std::string& name(exact::DiffuseModel model) {
+  return exact::diffuse_model_names()[static_cast<size_t>(model)];
 }
 
 // Fig. 1: a sharp SG light close to a wall. Config: width, height, extent (of the wall's width, m),
@@ -25,12 +25,12 @@ FigureOutput hemisphere(const FigureInputs& inputs);
 // width, height, image, repetitions, splotch.
 FigureOutput lights(const FigureInputs& inputs);
 
-// The SMAPE of `image`, and the pictures of all kernels beside the reference's.
-struct KernelImages {
+// The SMAPE of `image`, and the pictures of all models beside the reference's.
+struct ModelImages {
   Image reference;
   Mask mask;
-  std::vector<Image> images;  // one a kernel
+  std::vector<Image> images;  // one a model
 };
-Bitmap picture(const KernelImages& kernels, const std::string& title, const std::string& reference_detail);
+Bitmap picture(const ModelImages& models, const std::string& title, const std::string& reference_detail);
 
 }  // namespace vsglbench::sgl22

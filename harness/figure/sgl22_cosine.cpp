@@ -75,15 +75,15 @@ struct Series {
   std::vector<double> differences;  // one an angle
 };
 
-// The kernels at a sharpness where the light is a direction: L(v,κ) is then the clamped cosine.
-Series on_device(const FigureInputs& inputs, exact::DiffuseKernel kernel, const std::vector<double>& angles) {
+// The models at a sharpness where the light is a direction: L(v,κ) is then the clamped cosine.
+Series on_device(const FigureInputs& inputs, exact::DiffuseModel model, const std::vector<double>& angles) {
   std::vector<float> rows;
   for (const double angle : angles) {
     rows.insert(rows.end(), {std::clamp(static_cast<float>(std::cos(angle)), -1.0f, 1.0f), 0x1p41f});
   }
   const std::vector<float> values =
-      SgEvaluator(inputs.device, {SgFunction::clamped_cosine, kernel}).values(rows);
-  Series s{name(kernel) + ", GPU, κ = 2⁴¹", name(kernel), "measured", {}};
+      SgEvaluator(inputs.device, {SgFunction::clamped_cosine, model}).values(rows);
+  Series s{name(model) + ", GPU, κ = 2⁴¹", name(model), "measured", {}};
   for (size_t i = 0; i < values.size(); ++i) s.differences.push_back(values[i] - std::max(rows[2 * i], 0.0f));
   return s;
 }
@@ -112,7 +112,7 @@ Series formula(const char* name, const char* approximation, const char* origin,
 }  // namespace
 
 FigureOutput clamped_cosine(const FigureInputs& inputs) {
-  using enum exact::DiffuseKernel;
+  using enum exact::DiffuseModel;
   const int steps = inputs.config["steps"];
   std::vector<double> angles;
   for (int i = 0; i <= steps; ++i) angles.push_back(0.5 * std::numbers::pi * i / steps);

@@ -12,13 +12,13 @@ namespace {
 
 struct Approximation {
   const char* name;
-  exact::DiffuseKernel kernel;  // whose hemispherical integral it is
+  exact::DiffuseModel model;  // whose hemispherical integral it is
   double (*formula)(double cosine, double sharpness);
 };
 
-const Approximation kLogistic = {"logistic (Meder and Brüderlin)", exact::DiffuseKernel::meder_bruederlin,
+const Approximation kLogistic = {"logistic (Meder and Brüderlin)", exact::DiffuseModel::meder_bruederlin,
                                  exact::logistic_hemisphere};
-const Approximation kGaussian = {"[SGL22] Eq. 1", exact::DiffuseKernel::tokuyoshi2022,
+const Approximation kGaussian = {"[SGL22] Eq. 1", exact::DiffuseModel::tokuyoshi2022,
                                  exact::gaussian_hemisphere};
 
 // Largest sharpness from which on the paper's "large" is taken to begin.
@@ -90,7 +90,7 @@ FigureOutput hemisphere(const FigureInputs& inputs) {
   std::vector<double> exact;
   std::vector<std::vector<double>> measured;
   for (const Approximation& a : {kLogistic, kGaussian}) {
-    SgEvaluator evaluator(inputs.device, {SgFunction::hemisphere, a.kernel});
+    SgEvaluator evaluator(inputs.device, {SgFunction::hemisphere, a.model});
     inputs.begin(fmt::format("{} values of {}", rows.size() / 2, a.name));
     if (exact.empty()) exact = evaluator.evaluate(rows).exact;
     const std::vector<float> values = evaluator.values(rows);

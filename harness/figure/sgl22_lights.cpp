@@ -1,5 +1,5 @@
 // [SGL22] Fig. 4: a scene's indirect light from few virtual SG lights, without visibility, by every diffuse
-// kernel: the time of the shading pass, the error against quadrature, and black splotches: pixels darker than
+// model: the time of the shading pass, the error against quadrature, and black splotches: pixels darker than
 // a share of what quadrature says, where that is bright enough to be seen.
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "figure/kernel_times.h"
+#include "figure/model_times.h"
 #include "figure/sgl22.h"
 #include "frame/frame.h"
 #include "measure/statistics.h"
@@ -22,10 +22,10 @@
 namespace vsglbench::sgl22 {
 namespace {
 
-// One frame a kernel, of one size, by default all kernels; they share targets and scratch memory.
+// One frame a model, of one size, by default all models; they share targets and scratch memory.
 std::vector<std::unique_ptr<Frame>> make_frames(
     Stage& stage, const Json& config, uint32_t width, uint32_t height,
-    const std::vector<std::string>& diffuse = exact::diffuse_kernel_names()) {
+    const std::vector<std::string>& diffuse = exact::diffuse_model_names()) {
   const MethodInfo& method = load_method(config["method"], stage.device.info());
   const Json parameters = resolve_parameters(method, config.value("parameters", Json::object()));
   FrameParameters p{.width = width,
@@ -35,8 +35,8 @@ std::vector<std::unique_ptr<Frame>> make_frames(
                     .visibility = Visibility::none,
                     .importance = Importance::flux};
   std::vector<std::unique_ptr<Frame>> frames;
-  for (const auto& kernel : diffuse) {
-    p.shading["diffuse"] = kernel;
+  for (const auto& model : diffuse) {
+    p.shading["diffuse"] = model;
     frames.push_back(std::make_unique<Frame>(stage, method, parameters, p, nullptr));
     if (frames.back()->light_kind() == LightKind::vsgl) continue;
     throw fail(ErrorKind::config, "it makes no VSGLs; use a method that does, such as two-vsgl");
@@ -45,7 +45,7 @@ std::vector<std::unique_ptr<Frame>> make_frames(
 }
 
 // The image of a frame just rendered. Throws Error(case_failed) for lights or pixels that are not finite.
-Image finite_image(const Frame& frame, const std::string& kernel) {
+Image finite_image(const Frame& frame, const std::string& model) {
   const LightHealth lights = frame.light_health();
   if (!lights.first_bad_pass.empty()) {
     throw fail(ErrorKind::case_failed,
@@ -57,7 +57,7 @@ Image finite_image(const Frame& frame, const std::string& kernel) {
     const glm::vec3& p = image.pixels[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
     throw fail(ErrorKind::case_failed, "its pixels are not finite, shaded by {}; the first is ({}, {})",
-               kernel, i % image.width, i / image.width);
+               model, i % image.width, i / image.width);
   }
   return image;
 }
@@ -87,18 +87,18 @@ class ExactPixels {
   std::array<std::vector<glm::vec4>, 5> maps_;
 };
 
-KernelImages small_images(Stage& stage, const FigureInputs& inputs) {
+ModelImages small_images(Stage& stage, const FigureInputs& inputs) {
   const Json& config = inputs.config;
   const auto least = [&](const char* key) {
     return std::min(config["image"][key].get<uint32_t>(), config[key].get<uint32_t>());
   };
   const uint32_t width = least("width"), height = least("height");
-  KernelImages out;
+  ModelImages out;
   for (const auto& frame : make_frames(stage, config, width, height)) {
-    const std::string& kernel = exact::diffuse_kernel_names()[out.images.size()];
-    inputs.begin(fmt::format("a frame of {}×{}, {}", width, height, kernel));
+    const std::string& model = exact::diffuse_model_names()[out.images.size()];
+    inputs.begin(fmt::format("a frame of {}×{}, {}", width, height, model));
     frame->render(0);
-    out.images.push_back(finite_image(*frame, kernel));
+    out.images.push_back(finite_image(*frame, model));
     if (!out.mask.empty()) continue;
     inputs.begin(fmt::format("quadrature of {}×{} pixels", width, height));
     out.mask = frame->surface_mask();
@@ -111,7 +111,7 @@ KernelImages small_images(Stage& stage, const FigureInputs& inputs) {
   return out;
 }
 
-double median_luminance(const KernelImages& images) {
+double median_luminance(const ModelImages& images) {
   std::vector<double> all;
   for (size_t i = 0; i < images.mask.size(); ++i) {
     if (images.mask[i] != 0) all.push_back(luminance(images.reference.pixels[i]));
@@ -123,8 +123,8 @@ double median_luminance(const KernelImages& images) {
 // The frame at its full size.
 struct Full {
   uint32_t lights = 0;
-  KernelTimes times;
-  std::vector<uint64_t> splotches;  // by kernel, pixels
+  ModelTimes times;
+  std::vector<uint64_t> splotches;  // by model, pixels
 };
 
 double shade_time(const FrameTimes& times) {
@@ -134,24 +134,24 @@ double shade_time(const FrameTimes& times) {
   throw std::logic_error("a frame without a shade pass");
 }
 
-double middle_of(std::array<double, kKernels> luminances) {
-  std::ranges::nth_element(luminances, luminances.begin() + kKernels / 2);
-  return luminances[kKernels / 2];
+double middle_of(std::array<double, kModels> luminances) {
+  std::ranges::nth_element(luminances, luminances.begin() + kModels / 2);
+  return luminances[kModels / 2];
 }
 
-// What a splotch is, and whether the kernels' median, of which three follow the integral closely, is within a
+// What a splotch is, and whether the models' median, of which three follow the integral closely, is within a
 // factor of two of quadrature wherever one may be.
 struct Splotch {
   double share, least;
   bool median_is_close = true;
 };
 
-Splotch splotch_of(const Json& config, const KernelImages& images) {
+Splotch splotch_of(const Json& config, const ModelImages& images) {
   const Json& keys = config["splotch"];
   Splotch splotch{keys["share"], keys["least"].get<double>() * median_luminance(images)};
   for (size_t i = 0; i < images.mask.size(); ++i) {
-    std::array<double, kKernels> all;
-    for (size_t k = 0; k < kKernels; ++k) all[k] = luminance(images.images[k].pixels[i]);
+    std::array<double, kModels> all;
+    for (size_t k = 0; k < kModels; ++k) all[k] = luminance(images.images[k].pixels[i]);
     const double truth = luminance(images.reference.pixels[i]), middle = middle_of(all);
     if (images.mask[i] == 0 || truth < splotch.least) continue;
     splotch.median_is_close &= middle > 0.5 * truth && middle < 2 * truth;
@@ -159,14 +159,14 @@ Splotch splotch_of(const Json& config, const KernelImages& images) {
   return splotch;
 }
 
-// By kernel. Quadrature is asked only where the median leaves a doubt.
+// By model. Quadrature is asked only where the median leaves a doubt.
 std::vector<uint64_t> count_splotches(const std::vector<std::vector<float>>& luminances,
                                       const ExactPixels& exact, const Splotch& splotch) {
-  std::vector<std::atomic<uint64_t>> counts(kKernels);
+  std::vector<std::atomic<uint64_t>> counts(kModels);
   parallel_for(luminances[0].size(), 0, [&](uint64_t i, unsigned) {
     if (!exact.surface(i)) return;
-    std::array<double, kKernels> all;
-    for (size_t k = 0; k < kKernels; ++k) all[k] = luminances[k][i];
+    std::array<double, kModels> all;
+    for (size_t k = 0; k < kModels; ++k) all[k] = luminances[k][i];
     const double middle = middle_of(all), bound = splotch.share * middle;
     const auto sound = [&](double value) { return value >= 2 * bound; };
     const auto clear = [&](double value) { return sound(value) || value < 0.5 * bound; };
@@ -175,7 +175,7 @@ std::vector<uint64_t> count_splotches(const std::vector<std::vector<float>>& lum
         splotch.median_is_close && middle > 2 * splotch.least && std::ranges::all_of(all, clear);
     const double truth = no_doubt ? middle : luminance(exact.radiance(i));
     if (truth < splotch.least) return;
-    for (size_t k = 0; k < kKernels; ++k) counts[k] += !(all[k] >= splotch.share * truth);
+    for (size_t k = 0; k < kModels; ++k) counts[k] += !(all[k] >= splotch.share * truth);
   });
   return {counts.begin(), counts.end()};
 }
@@ -183,14 +183,14 @@ std::vector<uint64_t> count_splotches(const std::vector<std::vector<float>>& lum
 Full full_frames(Stage& stage, const FigureInputs& inputs, const Splotch& splotch) {
   const Json& config = inputs.config;
   const uint32_t width = config["width"], height = config["height"];
-  std::vector<std::string> diffuse = exact::diffuse_kernel_names();
-  diffuse.push_back(name(exact::DiffuseKernel::tokuyoshi2022));  // the twin
+  std::vector<std::string> diffuse = exact::diffuse_model_names();
+  diffuse.push_back(name(exact::DiffuseModel::tokuyoshi2022));  // the twin
   const auto frames = make_frames(stage, config, width, height, diffuse);
   std::vector<std::vector<float>> luminances;
   for (size_t k = 0; k < frames.size(); ++k) {
     inputs.begin(fmt::format("a frame of {}×{}, {}", width, height, diffuse[k]));
     frames[k]->render(0);  // kernels are compiled now
-    if (k == kKernels) continue;
+    if (k == kModels) continue;
     std::vector<float> one;
     for (const glm::vec3& pixel : finite_image(*frames[k], diffuse[k]).pixels)
       one.push_back(luminance(pixel));
@@ -210,7 +210,7 @@ Full full_frames(Stage& stage, const FigureInputs& inputs, const Splotch& splotc
   }
   std::vector<double> twin = std::move(shade_ms.back());
   shade_ms.pop_back();
-  full.times = KernelTimes(std::move(shade_ms), std::move(twin));
+  full.times = ModelTimes(std::move(shade_ms), std::move(twin));
   return full;
 }
 
@@ -221,11 +221,11 @@ void require_light(const Image& reference) {
 }
 
 std::vector<Claim> claims_of(const Full& full, const std::vector<double>& smape) {
-  using enum exact::DiffuseKernel;
-  const auto at = [](exact::DiffuseKernel kernel) { return static_cast<size_t>(kernel); };
+  using enum exact::DiffuseModel;
+  const auto at = [](exact::DiffuseModel model) { return static_cast<size_t>(model); };
   const size_t hill = at(pettineo_hill), meder = at(meder_bruederlin), ours = at(tokuyoshi2022);
   const std::string place = "[SGL22] Fig. 4";
-  const KernelTimes& times = full.times;
+  const ModelTimes& times = full.times;
   const auto& black = full.splotches;
   return {
       {"Pettineo and Hill's method can produce black splotches", place, finding(black[hill] > 0),
@@ -250,37 +250,37 @@ FigureOutput lights(const FigureInputs& inputs) {
   const Scene scene = load_scene(c["scene"], {data_root() / "scenes", inputs.assets});
   KernelLibrary kernels(inputs.device);
   Stage stage(inputs.device, kernels, scene);
-  const KernelImages images = small_images(stage, inputs);
+  const ModelImages images = small_images(stage, inputs);
   const Full full = full_frames(stage, inputs, splotch_of(c, images));
   require_light(images.reference);
 
   FigureOutput out;
-  FigureTable table{"sgl22-4",
-                    {"kernel", "origin", "width", "height", "shade_ms_median", "shade_ms_q1", "shade_ms_q3",
-                     "shade_ms_lo95", "shade_ms_hi95", "repetitions", "black_pixels", "image_width",
-                     "image_height", "smape_percent"},
-                    {}};
+  FigureTable table{
+      "sgl22-4",
+      {"model", "origin", "width", "height", "shade_ms_median", "shade_ms_q1", "shade_ms_q3", "shade_ms_lo95",
+       "shade_ms_hi95", "repetitions", "black_pixels", "image_width", "image_height", "smape_percent"},
+      {}};
   const Image& reference = images.reference;
   const std::string title = fmt::format("{}, {} VSGLs", scene.name, full.lights);
   const std::string size = fmt::format("{}×{}", c["width"].get<int>(), c["height"].get<int>());
   const std::string small = fmt::format("{}×{}", reference.width, reference.height);
   Plot plot{
-      .title = title + ": time and error of the diffuse kernels",
+      .title = title + ": time and error of the diffuse models",
       .x = {fmt::format("SMAPE against quadrature at {} / %", small), true},
       .y = {fmt::format("shade pass at {} / ms", size), false, true},
       .notes = {fmt::format("{}; medians of {} interleaved repetitions. Both lobes, diffuse and specular.",
                             inputs.device.info().name, c["repetitions"].dump())}};
   std::vector<double> smape;
-  for (size_t k = 0; k < kKernels; ++k) {
-    const Summary times = summarize(full.times.of(static_cast<exact::DiffuseKernel>(k)));
+  for (size_t k = 0; k < kModels; ++k) {
+    const Summary times = summarize(full.times.of(static_cast<exact::DiffuseModel>(k)));
     smape.push_back(measure_errors(images.images[k], reference, images.mask).smape);
-    const std::string kernel = exact::diffuse_kernel_names()[k];
+    const std::string model = exact::diffuse_model_names()[k];
     // Times and black pixels are of width × height, the SMAPE is of image_width × image_height.
-    table.add(kernel, std::string("measured"), c["width"].get<double>(), c["height"].get<double>(),
+    table.add(model, std::string("measured"), c["width"].get<double>(), c["height"].get<double>(),
               times.median, times.q1, times.q3, times.ci95.lo, times.ci95.hi,
               static_cast<double>(times.samples.size()), static_cast<double>(full.splotches[k]),
               static_cast<double>(reference.width), static_cast<double>(reference.height), smape[k]);
-    if (smape[k] > 0) plot.curves.push_back({kernel, {{smape[k], times.median}}, CurveStyle::points});
+    if (smape[k] > 0) plot.curves.push_back({model, {{smape[k], times.median}}, CurveStyle::points});
   }
   out.tables = {table};
   out.plots = {{"sgl22-4", plot}};

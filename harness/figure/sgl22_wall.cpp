@@ -75,8 +75,8 @@ Plot profile_plot(const Wall& wall) {
 }
 
 std::vector<Claim> claims_of(const std::vector<double>& smape) {
-  using enum exact::DiffuseKernel;
-  const auto of = [&](exact::DiffuseKernel kernel) { return smape[static_cast<size_t>(kernel)]; };
+  using enum exact::DiffuseModel;
+  const auto of = [&](exact::DiffuseModel model) { return smape[static_cast<size_t>(model)]; };
   const double ours = of(tokuyoshi2022), hill = of(pettineo_hill), meder = of(meder_bruederlin);
   return {
       {"at grazing angles the method's SMAPE is smaller than those of Pettineo and Hill, and of Meder and "
@@ -97,16 +97,16 @@ FigureOutput wall(const FigureInputs& inputs) {
 
   FigureOutput out;
   FigureTable table{
-      "sgl22-1", {"kernel", "origin", "smape_percent", "bias_percent", "max_abs_error_of_L"}, {}};
+      "sgl22-1", {"model", "origin", "smape_percent", "bias_percent", "max_abs_error_of_L"}, {}};
   FigureTable profile{
-      "sgl22-1-profile", {"kernel", "origin", "distance_m", "cosine", "sharpness", "L", "exact_L"}, {}};
+      "sgl22-1-profile", {"model", "origin", "distance_m", "cosine", "sharpness", "L", "exact_L"}, {}};
   Plot plot = profile_plot(wall);
-  KernelImages images;
+  ModelImages images;
   std::vector<double> smape, exact_pixels, exact_profile;
-  for (size_t k = 0; k < kKernels; ++k) {
-    const auto kernel = static_cast<exact::DiffuseKernel>(k);
-    SgEvaluator evaluator(inputs.device, {SgFunction::clamped_cosine, kernel});
-    inputs.begin(fmt::format("the wall of {}×{} pixels, {}", wall.width, wall.height, name(kernel)));
+  for (size_t k = 0; k < kModels; ++k) {
+    const auto model = static_cast<exact::DiffuseModel>(k);
+    SgEvaluator evaluator(inputs.device, {SgFunction::clamped_cosine, model});
+    inputs.begin(fmt::format("the wall of {}×{} pixels, {}", wall.width, wall.height, name(model)));
     // The quadrature is the same for all.
     if (k == 0) {
       exact_pixels = evaluator.evaluate(rows).exact;
@@ -117,11 +117,11 @@ FigureOutput wall(const FigureInputs& inputs) {
     images.images.push_back(image_of(wall, rows, pixels));
     const Errors errors = measure_errors(images.images.back(), images.reference);
     smape.push_back(errors.smape);
-    table.add(name(kernel), std::string("measured"), errors.smape, 100 * errors.bias.value_or(0),
+    table.add(name(model), std::string("measured"), errors.smape, 100 * errors.bias.value_or(0),
               largest_difference(pixels, exact_pixels));
-    Curve curve{name(kernel), {}};
+    Curve curve{name(model), {}};
     for (size_t i = 0; i < distances.size(); ++i) {
-      profile.add(name(kernel), std::string("measured"), distances[i], profile_rows[2 * i],
+      profile.add(name(model), std::string("measured"), distances[i], profile_rows[2 * i],
                   profile_rows[2 * i + 1], along[i], exact_profile[i]);
       curve.points.push_back({distances[i], 100 * (along[i] / exact_profile[i] - 1)});
     }
@@ -135,18 +135,18 @@ FigureOutput wall(const FigureInputs& inputs) {
   return out;
 }
 
-Bitmap picture(const KernelImages& kernels, const std::string& title, const std::string& reference_detail) {
+Bitmap picture(const ModelImages& models, const std::string& title, const std::string& reference_detail) {
   ContactSheet sheet;
   sheet.title = title;
   sheet.reference_detail = reference_detail;
-  sheet.reference = kernels.reference;
-  sheet.mask = kernels.mask;
-  sheet.exposure = auto_exposure(kernels.reference, kernels.mask);
+  sheet.reference = models.reference;
+  sheet.mask = models.mask;
+  sheet.exposure = auto_exposure(models.reference, models.mask);
   sheet.error_range = 0.2f;
-  for (size_t k = 0; k < kernels.images.size(); ++k) {
-    const Errors errors = measure_errors(kernels.images[k], kernels.reference, kernels.mask);
-    sheet.entries.push_back({exact::diffuse_kernel_names()[k], fmt::format("SMAPE {:.3g} %", errors.smape),
-                             kernels.images[k], std::nullopt});
+  for (size_t k = 0; k < models.images.size(); ++k) {
+    const Errors errors = measure_errors(models.images[k], models.reference, models.mask);
+    sheet.entries.push_back({exact::diffuse_model_names()[k], fmt::format("SMAPE {:.3g} %", errors.smape),
+                             models.images[k], std::nullopt});
   }
   return contact_sheet(sheet);
 }

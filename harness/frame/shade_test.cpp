@@ -31,8 +31,7 @@ TEST_F(ShadeTest, VsglsMatchDouble) {
   };
   EXPECT_LT(worst(shade(lights), host({})), 1e-4);
   EXPECT_LT(worst(shade(lights, {{"VARIANCE", "1"}}), host({.disk = true})), 1e-4);
-  EXPECT_LT(worst(shade(lights, {{"DIFFUSE_KERNEL", "4"}}), host({exact::DiffuseKernel::tokuyoshi2024})),
-            1e-4);
+  EXPECT_LT(worst(shade(lights, {{"DIFFUSE_MODEL", "4"}}), host({exact::DiffuseModel::tokuyoshi2024})), 1e-4);
 }
 
 TEST_F(ShadeTest, TripleProductsMatchDouble) {

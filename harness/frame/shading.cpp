@@ -19,7 +19,7 @@ const std::vector<ShadingAxis>& shading_axes() {
        {"on", "off"},
        "whether a light's specular lobe is its texels' filtered one, or that of one of them [VSGL14 Fig. 3]"},
       {"diffuse",
-       "DIFFUSE_KERNEL",
+       "DIFFUSE_MODEL",
        {"cosine", "pettineo-hill", "meder-bruederlin", "tokuyoshi2022", "tokuyoshi2024"},
        "the integral of an SG and the clamped cosine [MFIS16 App. C.2; SGL22]"},
       {"lobes",

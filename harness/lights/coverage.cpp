@@ -63,9 +63,9 @@ std::array<Tap, 2> taps(uint32_t base, uint32_t level, double position) {
 
 // The mean over a texel's block counts `times` times in all: each of its base texels, times over their
 // number.
-void add_level(Counts* counts, const glm::vec4& kernel, uint32_t level, double times, glm::uvec2 size) {
-  for (const Tap& y : taps(size.y, level, kernel.y)) {
-    for (const Tap& x : taps(size.x, level, kernel.x)) {
+void add_level(Counts* counts, const glm::vec4& footprint, uint32_t level, double times, glm::uvec2 size) {
+  for (const Tap& y : taps(size.y, level, footprint.y)) {
+    for (const Tap& x : taps(size.x, level, footprint.x)) {
       const double texels = double(x.to - x.from) * (y.to - y.from);
       counts->add({x.from, y.from}, {x.to, y.to}, times * x.weight * y.weight / texels);
     }
@@ -93,7 +93,7 @@ Coverage means(const Integrals& area, const Integrals& pdf) {
 glm::vec4 checked(const glm::vec4& square, size_t light) {
   if (std::isfinite(square.x) && std::isfinite(square.y) && std::isfinite(square.z) && square.z >= 0)
     return square;
-  throw fail(ErrorKind::plugin, "the kernel of light {} is no square: centre ({}, {}), side {}", light,
+  throw fail(ErrorKind::plugin, "the footprint of light {} is no square: centre ({}, {}), side {}", light,
              square.x, square.y, square.z);
 }
 
@@ -130,18 +130,18 @@ RsmShapes read_shapes(const LightShapes& shapes, uint32_t lights, uint64_t texel
   return out;
 }
 
-Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, uint32_t height,
-                       const std::vector<float>& pdf) {
+Coverage cover_footprints(const std::vector<glm::vec4>& footprints, uint32_t width, uint32_t height,
+                          const std::vector<float>& pdf) {
   uint32_t top = 0;
   while ((uint64_t{1} << top) < std::max(width, height)) ++top;
   Counts counts(width, height);
-  for (const glm::vec4& kernel : kernels) {
-    if (!(kernel.z > 0)) continue;
-    const double level = std::clamp(std::log2(double(kernel.z)), 0.0, double(top)),
+  for (const glm::vec4& footprint : footprints) {
+    if (!(footprint.z > 0)) continue;
+    const double level = std::clamp(std::log2(double(footprint.z)), 0.0, double(top)),
                  area = std::exp2(2 * level);
     const auto lower = static_cast<uint32_t>(level);
-    add_level(&counts, kernel, lower, area * (1 - (level - lower)), {width, height});
-    add_level(&counts, kernel, std::min(lower + 1, top), area * (level - lower), {width, height});
+    add_level(&counts, footprint, lower, area * (1 - (level - lower)), {width, height});
+    add_level(&counts, footprint, std::min(lower + 1, top), area * (level - lower), {width, height});
   }
   Integrals all, weighted;
   const std::vector<double> count = counts.texels();
@@ -165,7 +165,7 @@ Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
 
 std::optional<Coverage> coverage_of(const RsmShapes& shapes, uint32_t lights, uint32_t width, uint32_t height,
                                     const std::vector<float>& pdf) {
-  if (!shapes.squares.empty()) return cover_kernels(shapes.squares, width, height, pdf);
+  if (!shapes.squares.empty()) return cover_footprints(shapes.squares, width, height, pdf);
   if (!shapes.clusters.empty()) return cover_clusters(shapes.clusters, lights, pdf);
   return std::nullopt;
 }

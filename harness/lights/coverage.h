@@ -1,4 +1,4 @@
-// How well the lights' kernels or clusters cover the RSM: overlap and gap [MFIS16 Fig. 1].
+// How well the lights' footprints or clusters cover the RSM: overlap and gap [MFIS16 Fig. 1].
 #pragma once
 
 #include <cstdint>
@@ -29,12 +29,12 @@ struct Coverage {
   std::optional<double> pdf_overlap, pdf_gap;
 };
 
-// Coverage by filtering kernels (LightShapes::squares): each is a trilinear filter at its centre, whose mip
+// Coverage by footprints (LightShapes::squares): each is a trilinear filter at its centre, whose mip
 // level l has texels as large as its side, and its light stands for 4^l texels of the filtered mean. The
 // texels that the taps read count by their weights in that; so a light of `mfis` at K = 1 counts each as
 // often as it carries the texel's flux. `pdf` has any scale, row by row; it may be empty.
-Coverage cover_kernels(const std::vector<glm::vec4>& kernels, uint32_t width, uint32_t height,
-                       const std::vector<float>& pdf);
+Coverage cover_footprints(const std::vector<glm::vec4>& footprints, uint32_t width, uint32_t height,
+                          const std::vector<float>& pdf);
 // Coverage by a partition, which has no overlap.
 Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,
                         const std::vector<float>& pdf);

@@ -63,7 +63,7 @@ void append(const std::vector<Light>& lights, const LightSet& set, const glm::dv
     light.update(fields(lights[i], origin));
     if (i < set.shapes.squares.size()) {
       const glm::vec4& s = set.shapes.squares[i];
-      light["kernel"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
+      light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
     }
     list->push_back(std::move(light));
   }

@@ -27,13 +27,13 @@ struct LightSet {
 // `origin` plus the light's offset; vectors are arrays of three. Floats are written with the fewest digits
 // that read back as the same float.
 //   VSGL      index, mean, sigma (m, √E|y-μ|²), power (luminance of the reflected power, W), level (of its
-//             kernel in the mip pyramid, where it has one), diffuse and specular: axis, sharpness, amplitude
-//             (RGB, W/sr) of each lobe
+//             footprint in the mip pyramid, where it has one), diffuse and specular: axis, sharpness,
+//             amplitude (RGB, W/sr) of each lobe
 //   VPL, VSL  index, position, power (luminance of the incident flux, W), flux (incident, RGB, W), incident
 //             (unit, towards the primary light), normal, geometric_normal, brdf: diffuse and f0 (RGB), ndf
 //             ("ggx" with alpha, "phong" with exponent, "none"); radius (m, of a VSL); clamp (1/m², where
 //             set)
-//   both      kernel: x, y (centre) and side in texels of the RSM, for methods that have square kernels
+//   both      footprint: x, y (centre) and side in texels of the RSM, for methods that have square footprints
 Json light_list(const LightSet& lights, const glm::dvec3& origin);
 
 // The same as a table, a row a light: nested keys are joined by dots, "diffuse.axis.0".

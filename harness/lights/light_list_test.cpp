@@ -62,7 +62,7 @@ TEST(LightList, VsglInWorldCoordinates) {
   EXPECT_EQ(l.at("level"), 3.5);
   EXPECT_EQ(l.at("diffuse").dump(), R"({"axis":[0.0,1.0,0.0],"sharpness":2.0,"amplitude":[1.0,0.5,0.2]})");
   EXPECT_EQ(l.at("specular").at("sharpness"), 1e6);
-  EXPECT_EQ(static_cast<float>(l.at("kernel").at("side").get<double>()), 11.3f);
+  EXPECT_EQ(static_cast<float>(l.at("footprint").at("side").get<double>()), 11.3f);
 }
 
 TEST(LightList, VplsHaveTheirBrdf) {

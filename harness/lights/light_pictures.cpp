@@ -123,7 +123,7 @@ void draw_squares(Bitmap& bitmap, const std::vector<glm::vec4>& squares, const M
   }
 }
 
-// In texels: the kernels' centres, or the lights' projected positions.
+// In texels: the footprints' centres, or the lights' projected positions.
 std::vector<glm::dvec2> points_of(const LightSet& lights, const View& light) {
   std::vector<glm::dvec2> points;
   for (const glm::vec4& s : lights.shapes.squares) {
@@ -145,7 +145,7 @@ std::vector<std::string> rsm_legend(const LightSet& lights, const std::optional<
           fmt::format("overlap {:.3f}  gap {:.3f}  weighted by p", *c->pdf_overlap, *c->pdf_gap));
   }
   const bool squares = !lights.shapes.squares.empty(), clusters = !lights.shapes.clusters.empty();
-  legend.push_back(squares    ? "red: kernel centres, orange: kernels"
+  legend.push_back(squares    ? "red: footprint centres, orange: footprints"
                    : clusters ? "red: lights as the primary light sees them, orange and tints: clusters"
                               : "red: lights as the primary light sees them");
   legend.push_back(lights.pdf.empty() ? "brightness: sqrt of diffuse reflectance (no PDF)"

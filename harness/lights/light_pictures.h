@@ -25,10 +25,10 @@ struct LightMark {
 std::vector<LightMark> light_marks(const LightSet& lights);
 
 // Brightness is the square root of p over its 99.5th percentile; `fallback` (a value a texel) stands in for
-// the PDF where the method uses none. Red points: centres of the kernels, or where the light's view shows the
-// lights' positions. Orange: outlines of the square kernels, or borders of the clusters, which are tinted. A
-// texel is as many whole pixels as make about 1024, 16 at most, 1024 pixels in all for an RSM above that.
-// `captions` stand above, `coverage` and what the marks mean below.
+// the PDF where the method uses none. Red points: centres of the footprints, or where the light's view shows
+// the lights' positions. Orange: outlines of the square footprints, or borders of the clusters, which are
+// tinted. A texel is as many whole pixels as make about 1024, 16 at most, 1024 pixels in all for an RSM above
+// that. `captions` stand above, `coverage` and what the marks mean below.
 Bitmap draw_on_rsm(const LightSet& lights, const View& light, const std::vector<float>& fallback,
                    const std::optional<Coverage>& coverage, const std::vector<std::string>& captions);
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr glm::u8vec3 kRed{255, 32, 32};
 
-// Eight texels a side, one kernel, a PDF on the left half. The picture stands 12 pixels from the left.
+// Eight texels a side, one footprint, a PDF on the left half. The picture stands 12 pixels from the left.
 LightSet one_square() {
   LightSet set;
   set.rsm = 8;
@@ -45,8 +45,8 @@ TEST(LightPictures, ALightsColourIsItsFluxs) {
   EXPECT_EQ(light_marks(set)[0].color, glm::vec3(0.5f, 1, 0));
 }
 
-// 16 pixels a texel: the kernel's centre at texel (2.5, 3.5), the picture below two lines of captions.
-TEST(LightPictures, KernelsLieOverTheirTexels) {
+// 16 pixels a texel: the footprint's centre at texel (2.5, 3.5), the picture below two lines of captions.
+TEST(LightPictures, FootprintsLieOverTheirTexels) {
   const Bitmap b = draw_on_rsm(one_square(), {}, {}, Coverage{0.5, 0.25, 0.5, 0.25}, {"a", "b"});
   EXPECT_EQ(b.width, 8u * 16 + 24);
   const uint32_t left = 12, top = 12 + 2 * 22 + 12;

@@ -5,7 +5,7 @@
 #include <flann/flann.hpp>
 #include <random>
 
-#include "measure/kernel_blocks.h"
+#include "measure/blocks.h"
 #include "measure/stopwatch.h"
 #include "method/nearest_centre.h"
 

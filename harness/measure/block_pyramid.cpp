@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "measure/kernel_blocks.h"
+#include "measure/blocks.h"
 #include "method/filtered_sampling.h"
 #include "method/lattice.h"
 #include "method/made_half.h"

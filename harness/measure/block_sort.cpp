@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "measure/kernel_blocks.h"
+#include "measure/blocks.h"
 #include "measure/stopwatch.h"
 #include "method/radix_sort.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "measure/kernel_blocks.h"
+#include "measure/blocks.h"
 #include "method/cluster_sum.h"
 #include "method/made_half.h"
 

@@ -54,12 +54,12 @@ namespace {
 
 class FilteredSampling : public Method {
  public:
-  FilteredSampling(MethodContext& context, const std::string& file, float kernel_size,
+  FilteredSampling(MethodContext& context, const std::string& file, float footprint_size,
                    const ShaderDefines& defines)
       : context_(context),
         pyramid_(context),
         sample_(context.kernel(file, defines)),
-        kernel_size_(kernel_size) {}
+        footprint_size_(footprint_size) {}
 
   LightKind kind() const override { return LightKind::vsgl; }
 
@@ -69,9 +69,9 @@ class FilteredSampling : public Method {
       const struct {
         uint32_t width, height, count, step;
         glm::uvec2 shift;
-        float kernel_size;
+        float footprint_size;
       } push{field.emitter.width,        field.emitter.height, target.count,
-             lattice_step(target.count), target.shift,         kernel_size_};
+             lattice_step(target.count), target.shift,         footprint_size_};
       Buffer& squares = context_.scratch(fmt::format("squares.{}", half_name(field.half)),
                                          target.count * sizeof(glm::vec4));
       squares_[field.half] = &squares;
@@ -88,14 +88,14 @@ class FilteredSampling : public Method {
   std::map<Half, const Buffer*> squares_;
   MomentPyramid pyramid_;
   const Kernel& sample_;
-  float kernel_size_;
+  float footprint_size_;
 };
 
 }  // namespace
 
 std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
-                                               float kernel_size, const ShaderDefines& defines) {
-  return std::make_unique<FilteredSampling>(context, kernel_file, kernel_size, defines);
+                                               float footprint_size, const ShaderDefines& defines) {
+  return std::make_unique<FilteredSampling>(context, kernel_file, footprint_size, defines);
 }
 
 }  // namespace vsglbench

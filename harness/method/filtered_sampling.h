@@ -22,9 +22,9 @@ class MomentPyramid {
   const Kernel &resolve_, &mip_;
 };
 
-// A method whose kernel file includes filtered_sampling.glsl; `kernel_size` is K. `defines`: of that file.
+// A method whose kernel file includes filtered_sampling.glsl; `footprint_size` is K. `defines`: of that file.
 std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
-                                               float kernel_size, const ShaderDefines& defines = {});
+                                               float footprint_size, const ShaderDefines& defines = {});
 
 // Texels of a whole pyramid over width × height (shaders/pyramid.glsl).
 uint64_t pyramid_texels(uint32_t width, uint32_t height);

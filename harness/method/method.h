@@ -82,7 +82,7 @@ class Steps {
 
 // Which texels of a half its lights stand for, for pictures and statistics; null where that is not defined.
 struct LightShapes {
-  // A vec4 a light: centre x, y and side of its filtering kernel in texels; side 0: no light.
+  // A vec4 a light: centre x, y and side of its footprint in texels; side 0: no light.
   const Buffer* squares = nullptr;
   // Of a partition, two uints a texel: the light it belongs to (at least the number of lights: none), and its
   // y * width + x; `texels` null: in the order of the texels.

@@ -114,7 +114,7 @@ double error_of(SgError kind, double value, double exact) {
 
 // The error of one row; the exact value goes to *exact.
 double error_of_shade(const SgQuestion& q, const float* arguments, double value, double* exact) {
-  const sg_shade::Answer answer = sg_shade::answer(arguments, q.kernel);
+  const sg_shade::Answer answer = sg_shade::answer(arguments, q.model);
   *exact = answer.value;
   const double difference = std::max(std::abs(value - answer.value) - answer.floor, 0.0);  // a NaN stays one
   return difference > 0 ? difference / answer.scale : difference;
@@ -141,7 +141,7 @@ std::filesystem::path or_default(const std::filesystem::path& kernel) {
 
 ShaderDefines defines(const SgQuestion& q) {
   return {{"FUNCTION", std::to_string(static_cast<int>(q.function))},
-          {"DIFFUSE_KERNEL", std::to_string(static_cast<int>(q.kernel))},
+          {"DIFFUSE_MODEL", std::to_string(static_cast<int>(q.model))},
           {"COLUMNS", std::to_string(device_columns(q))},
           {"RESULTS", std::to_string(q.info().results.size())}};
 }

@@ -52,20 +52,18 @@ const char* error_name(SgError error);
 
 struct SgQuestion {
   SgFunction function = SgFunction::clamped_cosine;
-  exact::DiffuseKernel kernel = exact::DiffuseKernel::cosine;  // where has_kernel()
-  bool has_kernel() const {
+  exact::DiffuseModel model = exact::DiffuseModel::cosine;  // where has_model()
+  bool has_model() const {
     using enum SgFunction;
     return function == clamped_cosine || function == hemisphere || function == shade;
   }
-  const std::string& kernel_name() const {
-    return exact::diffuse_kernel_names()[static_cast<size_t>(kernel)];
-  }
+  const std::string& model_name() const { return exact::diffuse_model_names()[static_cast<size_t>(model)]; }
   const SgFunctionInfo& info() const { return sg_functions()[static_cast<size_t>(function)]; }
 };
 
 // Both throw Error(usage) naming the nearest.
 SgFunction sg_function(const std::string& name);
-exact::DiffuseKernel diffuse_kernel(const std::string& name);
+exact::DiffuseModel diffuse_model(const std::string& name);
 // The interval that a column's values must lie in.
 std::pair<double, double> sg_domain(const SgQuestion& question, const std::string& column);
 // What makes a row no argument of the function, "cosine is 2, not in [-1, 1]"; empty: nothing.

@@ -11,21 +11,21 @@
 #include "operation/sg_random.h"
 
 using namespace vsglbench;
-using exact::DiffuseKernel;
+using exact::DiffuseModel;
 
 namespace {
 
-constexpr DiffuseKernel kKernels[] = {DiffuseKernel::cosine, DiffuseKernel::pettineo_hill,
-                                      DiffuseKernel::meder_bruederlin, DiffuseKernel::tokuyoshi2022,
-                                      DiffuseKernel::tokuyoshi2024};
+constexpr DiffuseModel kModels[] = {DiffuseModel::cosine, DiffuseModel::pettineo_hill,
+                                    DiffuseModel::meder_bruederlin, DiffuseModel::tokuyoshi2022,
+                                    DiffuseModel::tokuyoshi2024};
 
 Device& device() {
   static Device d;
   return d;
 }
 
-const std::string& name(DiffuseKernel kernel) {
-  return exact::diffuse_kernel_names()[static_cast<size_t>(kernel)];
+const std::string& name(DiffuseModel model) {
+  return exact::diffuse_model_names()[static_cast<size_t>(model)];
 }
 
 std::filesystem::path beside(const char* file) { return data_root() / "harness" / "operation" / file; }
@@ -67,10 +67,10 @@ ErrorSpread random_errors(const SgQuestion& q, size_t count, const std::filesyst
   return error_spread(q, evaluator.evaluate(random_rows(q, count, 2024)));
 }
 
-SgAnswers cosines(DiffuseKernel kernel, float sharpness) {
+SgAnswers cosines(DiffuseModel model, float sharpness) {
   std::vector<float> rows;
   for (int i = 0; i <= 400; ++i) rows.insert(rows.end(), {-1 + static_cast<float>(i) / 200, sharpness});
-  return SgEvaluator(device(), {SgFunction::clamped_cosine, kernel}).evaluate(rows);
+  return SgEvaluator(device(), {SgFunction::clamped_cosine, model}).evaluate(rows);
 }
 
 // Rows of four arguments to sg_pixel_test.comp; three results a row.
@@ -103,15 +103,15 @@ TEST(SgKernels, WithinTheTabledErrors) {
                          Row{0x1p41f, 1e-6, 7.7e-3, 3.3e-4, 8e-8}}) {
     const double bounds[] = {1, row.pettineo_hill, row.meder_bruederlin, row.tokuyoshi2022,
                              row.tokuyoshi2024};
-    for (const DiffuseKernel kernel : kKernels) {
-      if (kernel == DiffuseKernel::pettineo_hill && row.sharpness < 1e-6f) continue;
-      const SgAnswers a = cosines(kernel, row.sharpness);
+    for (const DiffuseModel model : kModels) {
+      if (model == DiffuseModel::pettineo_hill && row.sharpness < 1e-6f) continue;
+      const SgAnswers a = cosines(model, row.sharpness);
       for (size_t i = 0; i < a.error.size(); ++i) {
-        EXPECT_LE(a.error[i], 1.3 * bounds[static_cast<size_t>(kernel)])
-            << name(kernel) << " cosine " << -1 + static_cast<double>(i) / 200 << " sharpness "
+        EXPECT_LE(a.error[i], 1.3 * bounds[static_cast<size_t>(model)])
+            << name(model) << " cosine " << -1 + static_cast<double>(i) / 200 << " sharpness "
             << row.sharpness;
-        if (kernel == DiffuseKernel::pettineo_hill) continue;
-        EXPECT_EQ(impossible({SgFunction::clamped_cosine, kernel}, a, i), "") << name(kernel) << " row " << i;
+        if (model == DiffuseModel::pettineo_hill) continue;
+        EXPECT_EQ(impossible({SgFunction::clamped_cosine, model}, a, i), "") << name(model) << " row " << i;
       }
     }
   }
@@ -119,33 +119,33 @@ TEST(SgKernels, WithinTheTabledErrors) {
 
 // The formula, not another one that is as good: single against double precision of the same.
 TEST(SgKernels, AreTheFormulas) {
-  for (const DiffuseKernel kernel : kKernels) {
+  for (const DiffuseModel model : kModels) {
     for (const float sharpness : {0.01f, 1.0f, 8.0f, 300.0f, 1e5f}) {
-      const SgAnswers a = cosines(kernel, sharpness);
+      const SgAnswers a = cosines(model, sharpness);
       for (int i = 0; i <= 400; ++i) {
-        const double formula = exact::diffuse_kernel(kernel, -1 + static_cast<float>(i) / 200, sharpness);
-        const bool clamped = kernel != DiffuseKernel::pettineo_hill;
+        const double formula = exact::diffuse_model(model, -1 + static_cast<float>(i) / 200, sharpness);
+        const bool clamped = model != DiffuseModel::pettineo_hill;
         const double expected = clamped ? std::clamp(formula, 0.0, 1.0) : formula;
         // An α of 1182, or of 32, magnifies the roundings of two hemispherical integrals.
-        const double bound = kernel == DiffuseKernel::tokuyoshi2022      ? 2e-4
-                             : kernel == DiffuseKernel::meder_bruederlin ? 2e-5
-                                                                         : 2e-6;
+        const double bound = model == DiffuseModel::tokuyoshi2022      ? 2e-4
+                             : model == DiffuseModel::meder_bruederlin ? 2e-5
+                                                                       : 2e-6;
         EXPECT_NEAR(a.values[i], expected, bound * std::max(1.0, std::abs(expected)))
-            << name(kernel) << " " << i << " " << sharpness;
+            << name(model) << " " << i << " " << sharpness;
       }
     }
   }
 }
 
 TEST(SgKernels, HemispheresAreTheFormulas) {
-  for (const DiffuseKernel kernel : {DiffuseKernel::meder_bruederlin, DiffuseKernel::tokuyoshi2022}) {
-    const SgQuestion q{SgFunction::hemisphere, kernel};
+  for (const DiffuseModel model : {DiffuseModel::meder_bruederlin, DiffuseModel::tokuyoshi2022}) {
+    const SgQuestion q{SgFunction::hemisphere, model};
     SgEvaluator evaluator(device(), q);
     const std::vector<float> rows = random_rows(q, 20000, 11);
     const SgAnswers a = evaluator.evaluate(rows);
     for (size_t i = 0; i < a.values.size(); ++i) {
       const double c = rows[2 * i], k = rows[2 * i + 1];
-      const bool logistic = kernel == DiffuseKernel::meder_bruederlin;
+      const bool logistic = model == DiffuseModel::meder_bruederlin;
       const double formula = logistic ? exact::logistic_hemisphere(c, k) : exact::gaussian_hemisphere(c, k);
       ASSERT_NEAR(a.values[i], formula, 5e-7) << reproducer(q, {rows[2 * i], rows[2 * i + 1]});
     }
@@ -153,14 +153,14 @@ TEST(SgKernels, HemispheresAreTheFormulas) {
 }
 
 TEST(SgKernels, RandomPairsStayFinite) {
-  for (const DiffuseKernel kernel : kKernels) {
-    const SgQuestion q{SgFunction::clamped_cosine, kernel};
+  for (const DiffuseModel model : kModels) {
+    const SgQuestion q{SgFunction::clamped_cosine, model};
     SgEvaluator evaluator(device(), q);
     const std::vector<float> rows = random_rows(q, 100000, 7);
     const SgAnswers a = evaluator.evaluate(rows);
     const ErrorSpread s = error_spread(q, a);
-    fmt::print("{:<17} p50 {:.2e}  p99 {:.2e}  max {:.2e}\n", name(kernel), s.p50, s.p99, s.max);
-    if (kernel == DiffuseKernel::pettineo_hill) {
+    fmt::print("{:<17} p50 {:.2e}  p99 {:.2e}  max {:.2e}\n", name(model), s.p50, s.p99, s.max);
+    if (model == DiffuseModel::pettineo_hill) {
       for (const float v : a.values) ASSERT_TRUE(std::isfinite(v));
     } else {
       EXPECT_TRUE(s.impossible.empty())
@@ -182,10 +182,10 @@ TEST(SgOperations, KeepTheirBounds) {
 }
 
 TEST(SgOperations, HemispheresAreWithinTheFormulasError) {
-  for (const auto& [kernel, bound] :
-       {std::pair(DiffuseKernel::meder_bruederlin, 1.2e-2), std::pair(DiffuseKernel::tokuyoshi2022, 6e-3)}) {
-    const ErrorSpread s = random_errors({SgFunction::hemisphere, kernel}, 100000);
-    fmt::print("hemisphere {:<17} p50 {:.2e}  p99 {:.2e}  max {:.2e}\n", name(kernel), s.p50, s.p99, s.max);
+  for (const auto& [model, bound] :
+       {std::pair(DiffuseModel::meder_bruederlin, 1.2e-2), std::pair(DiffuseModel::tokuyoshi2022, 6e-3)}) {
+    const ErrorSpread s = random_errors({SgFunction::hemisphere, model}, 100000);
+    fmt::print("hemisphere {:<17} p50 {:.2e}  p99 {:.2e}  max {:.2e}\n", name(model), s.p50, s.p99, s.max);
     EXPECT_LE(s.max, bound);
     EXPECT_TRUE(s.impossible.empty());
   }
@@ -216,7 +216,7 @@ TEST(NaiveForms, BreakTheBounds) {
 
 TEST(Shrinking, LeavesAShortRowThatFailsStill) {
   for (const auto& [q, kernel] :
-       {std::pair(SgQuestion{SgFunction::clamped_cosine, DiffuseKernel::pettineo_hill},
+       {std::pair(SgQuestion{SgFunction::clamped_cosine, DiffuseModel::pettineo_hill},
                   std::filesystem::path()),
         std::pair(SgQuestion{SgFunction::product}, beside("sg_naive.comp"))}) {
     SgEvaluator evaluator(device(), q, kernel);
@@ -231,8 +231,8 @@ TEST(Shrinking, LeavesAShortRowThatFailsStill) {
     EXPECT_NE(impossible(q, evaluator.evaluate(small), 0), "");
     EXPECT_LT(fmt::format("{}", fmt::join(small, ",")).size(), 8 * columns);
   }
-  EXPECT_EQ(reproducer({SgFunction::clamped_cosine, DiffuseKernel::pettineo_hill}, {0.5f, 1e-6f}),
-            "printf 'cosine,sharpness\\n0.5,1e-06\\n' | vsglbench sg --kernel pettineo-hill --function "
+  EXPECT_EQ(reproducer({SgFunction::clamped_cosine, DiffuseModel::pettineo_hill}, {0.5f, 1e-6f}),
+            "printf 'cosine,sharpness\\n0.5,1e-06\\n' | vsglbench sg --model pettineo-hill --function "
             "clamped_cosine");
 }
 
@@ -252,15 +252,15 @@ TEST(Pixels, ALoneTexelKeepsItsSharpness) {
   }
 }
 
-// DIFFUSE_KERNEL, LOBE_CONVERSION and VARIANCE as the pixel sees them [MFIS16 App. B, C].
+// DIFFUSE_MODEL, LOBE_CONVERSION and VARIANCE as the pixel sees them [MFIS16 App. B, C].
 TEST(Pixels, FollowTheirSwitches) {
   const float cosine = 0.3f, distance = 2, variance = 0.5f, complement = 0.25f;
-  for (const DiffuseKernel kernel : kKernels) {
+  for (const DiffuseModel model : kModels) {
     for (const int banerjee : {0, 1}) {
       for (const int disk : {0, 1}) {
         KernelLibrary kernels(device());
         const Kernel& pixel = kernels.get(beside("sg_pixel_test.comp"),
-                                          {{"DIFFUSE_KERNEL", std::to_string(static_cast<int>(kernel))},
+                                          {{"DIFFUSE_MODEL", std::to_string(static_cast<int>(model))},
                                            {"LOBE_CONVERSION", std::to_string(banerjee)},
                                            {"VARIANCE", std::to_string(disk)}});
         const auto values =
@@ -272,13 +272,13 @@ TEST(Pixels, FollowTheirSwitches) {
         const double sigma2 = disk ? variance / 2 : variance, sharpness = distance * distance / sigma2 + lobe;
         const double amplitude = 1 / exact::sg_integral(lobe) / (2 * std::numbers::pi * sigma2);
         const double expected = amplitude / std::numbers::pi * exact::sg_integral(sharpness) *
-                                exact::diffuse_kernel(kernel, cosine, sharpness);
-        EXPECT_NEAR(values[0] / expected, 1, kernel == DiffuseKernel::tokuyoshi2022 ? 1e-3 : 1e-4)
-            << name(kernel) << " " << banerjee << disk;
-        // A point far away: its intensity cos θ/d², but for what the kernel misses at κ → ∞.
+                                exact::diffuse_model(model, cosine, sharpness);
+        EXPECT_NEAR(values[0] / expected, 1, model == DiffuseModel::tokuyoshi2022 ? 1e-3 : 1e-4)
+            << name(model) << " " << banerjee << disk;
+        // A point far away: its intensity cos θ/d², but for what the model misses at κ → ∞.
         const double point = 1 / exact::sg_integral(lobe) / std::numbers::pi * cosine / 1e6;
-        const double missed = exact::diffuse_kernel(kernel, cosine, 0x1p41) / cosine;
-        EXPECT_NEAR(values[3] / point, missed, 1e-3) << name(kernel) << " " << banerjee << disk;
+        const double missed = exact::diffuse_model(model, cosine, 0x1p41) / cosine;
+        EXPECT_NEAR(values[3] / point, missed, 1e-3) << name(model) << " " << banerjee << disk;
       }
     }
   }

@@ -27,7 +27,7 @@ const std::vector<SgFunctionInfo>& sg_functions() {
        absolute,
        0,
        1,
-       "L(v,κ) = ∫G max(ω·n,0)/∫G by --kernel, against quadrature; cosine = v·n"},
+       "L(v,κ) = ∫G max(ω·n,0)/∫G by --model, against quadrature; cosine = v·n"},
       {"integral", {"sharpness"}, {"value"}, relative, 0, kInfinity, "A(λ), the integral of an SG"},
       {"product",
        {"cosine", "sharpness1", "sharpness2"},
@@ -42,7 +42,7 @@ const std::vector<SgFunctionInfo>& sg_functions() {
        absolute,
        0,
        1,
-       "s(v·n,κ), the normalised hemispherical integral: --kernel meder-bruederlin or tokuyoshi2022"},
+       "s(v·n,κ), the normalised hemispherical integral: --model meder-bruederlin or tokuyoshi2022"},
       {"asg_product",
        asg,
        {"value"},
@@ -77,7 +77,7 @@ const std::vector<SgFunctionInfo>& sg_functions() {
        conditioned,
        0,
        kInfinity,
-       "reflected radiance of a whole VSGL at a whole surface, with the diffuse term by --kernel"},
+       "reflected radiance of a whole VSGL at a whole surface, with the diffuse term by --model"},
       {"receiver",
        sg_receiver::columns(),
        {"value"},
@@ -116,11 +116,11 @@ SgFunction sg_function(const std::string& name) {
   throw fail(ErrorKind::usage, "no function '{}'{}", name, suggestion(name, names));
 }
 
-exact::DiffuseKernel diffuse_kernel(const std::string& name) {
-  const auto& names = exact::diffuse_kernel_names();
+exact::DiffuseModel diffuse_model(const std::string& name) {
+  const auto& names = exact::diffuse_model_names();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<exact::DiffuseKernel>(found - names.begin());
-  throw fail(ErrorKind::usage, "no diffuse kernel '{}'{}", name, suggestion(name, names));
+  if (found != names.end()) return static_cast<exact::DiffuseModel>(found - names.begin());
+  throw fail(ErrorKind::usage, "no diffuse model '{}'{}", name, suggestion(name, names));
 }
 
 std::pair<double, double> sg_domain(const SgQuestion& q, const std::string& column) {
@@ -135,7 +135,7 @@ std::pair<double, double> sg_domain(const SgQuestion& q, const std::string& colu
                                                                                    : std::pair(-100.0, 100.0);
   }
   const bool diverges =
-      q.function == SgFunction::clamped_cosine && q.kernel == exact::DiffuseKernel::pettineo_hill;
+      q.function == SgFunction::clamped_cosine && q.model == exact::DiffuseModel::pettineo_hill;
   return {diverges ? 1e-6f : 0, kSharpest};
 }
 

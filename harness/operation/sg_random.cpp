@@ -202,11 +202,11 @@ std::vector<float> shrink(SgEvaluator& evaluator, std::vector<float> row) {
 }
 
 std::string reproducer(const SgQuestion& question, const std::vector<float>& row) {
-  const std::string kernel = question.has_kernel() ? " --kernel " + question.kernel_name() : "";
+  const std::string model = question.has_model() ? " --model " + question.model_name() : "";
   // Without a file it prints its own table.
   const char* in = question.function == SgFunction::receiver ? " --in /dev/stdin" : "";
   return fmt::format("printf '{}\\n{}\\n' | vsglbench sg{} --function {}{}",
-                     fmt::join(question.info().columns, ","), fmt::join(row, ","), kernel,
+                     fmt::join(question.info().columns, ","), fmt::join(row, ","), model,
                      question.info().name, in);
 }
 

@@ -192,14 +192,14 @@ void append_arguments(std::span<const float> row, std::vector<float>* out) {
   out->insert(out->end(), row.begin() + 13, row.begin() + 16);
 }
 
-Answer answer(const float* arguments, exact::DiffuseKernel kernel) {
+Answer answer(const float* arguments, exact::DiffuseModel model) {
   const Scene scene = scene_of(arguments);
-  const auto shade = [kernel](const Scene& s) { return exact::shade_vsgl(s.surface, s.light, {kernel}).x; };
+  const auto shade = [model](const Scene& s) { return exact::shade_vsgl(s.surface, s.light, {model}).x; };
   const Bounds b = bounds(scene);
   Answer a;
   a.value = shade(scene);
   a.scale = std::abs(a.value) + changes(scene, a.value, shade) / kStep;
-  if (kernel != exact::DiffuseKernel::cosine) a.scale += b.full_diffuse;
+  if (model != exact::DiffuseModel::cosine) a.scale += b.full_diffuse;
   a.floor = kUnderflow * (1 + b.unattenuated);
   return a;
 }

@@ -36,9 +36,9 @@ struct Answer {
 // The scale is |value| plus the condition of the problem: the sum of what value changes by when the direction
 // to the light, an axis, the normal or the view turns by 2^-21 rad, either way about two axes, or distance,
 // variance or a sharpness changes by 2^-21 of itself, over 2^-21. An error of e scales is what arguments that
-// are off by e make. For all kernels but cosine, whose bounds are absolute, the diffuse light at L = 1 comes
+// are off by e make. For all models but cosine, whose bounds are absolute, the diffuse light at L = 1 comes
 // on top. The floor is 2^-124 of 1 and of the light without its exponential attenuation: below that, single
 // precision underflows.
-Answer answer(const float* arguments, exact::DiffuseKernel kernel);
+Answer answer(const float* arguments, exact::DiffuseModel model);
 
 }  // namespace vsglbench::sg_shade

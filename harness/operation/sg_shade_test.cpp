@@ -10,7 +10,7 @@
 #include "operation/sg_random.h"
 
 using namespace vsglbench;
-using exact::DiffuseKernel;
+using exact::DiffuseModel;
 
 namespace {
 
@@ -50,21 +50,21 @@ std::vector<float> corner_rows() {
 
 }  // namespace
 
-// Stated: an error is within that of arguments that are off by 4e-6; with another kernel than cosine, 2e-4,
+// Stated: an error is within that of arguments that are off by 4e-6; with another model than cosine, 2e-4,
 // which is what the α of 1182 in tokuyoshi2022 makes of a rounding.
 TEST(SgShade, RandomPairsKeepTheBound) {
-  for (const auto& kernel : exact::diffuse_kernel_names()) {
-    const SgQuestion q{SgFunction::shade, diffuse_kernel(kernel)};
-    const bool by_default = q.kernel == DiffuseKernel::cosine;
+  for (const auto& model : exact::diffuse_model_names()) {
+    const SgQuestion q{SgFunction::shade, diffuse_model(model)};
+    const bool by_default = q.model == DiffuseModel::cosine;
     SgEvaluator evaluator(device(), q);
     const std::vector<float> rows = random_rows(q, by_default ? 20000 : 5000, 17);
     const SgAnswers a = evaluator.evaluate(rows);
     const ErrorSpread s = error_spread(q, a);
-    fmt::print("{:<17} p50 {:.2e}  p99 {:.2e}  max {:.2e}\n", kernel, s.p50, s.p99, s.max);
+    fmt::print("{:<17} p50 {:.2e}  p99 {:.2e}  max {:.2e}\n", model, s.p50, s.p99, s.max);
     EXPECT_LE(s.max, by_default ? 4e-6 : 2e-4) << reproducer(q, row_of(rows, s.worst));
     for (const size_t i : s.impossible) {
       const std::string what = impossible(q, a, i);
-      if (q.kernel == DiffuseKernel::pettineo_hill && what == "negative") continue;
+      if (q.model == DiffuseModel::pettineo_hill && what == "negative") continue;
       ADD_FAILURE() << what << ": " << reproducer(q, shrink(evaluator, row_of(rows, i)));
       break;
     }
@@ -95,7 +95,7 @@ TEST(SgShade, RandomRowsAreMostlyLightAndWellConditioned) {
     std::vector<float> arguments;
     sg_shade::append_arguments(row, &arguments);
     ASSERT_EQ(arguments.size(), sg_shade::kDeviceColumns);
-    const sg_shade::Answer a = sg_shade::answer(arguments.data(), q.kernel);
+    const sg_shade::Answer a = sg_shade::answer(arguments.data(), q.model);
     ASSERT_TRUE(std::isfinite(a.value) && std::isfinite(a.scale));
     lit += a.value > 1e3 * a.floor;
     well += a.value > 1e3 * a.floor && a.scale < 1e3 * a.value;

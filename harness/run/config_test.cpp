@@ -278,7 +278,7 @@ TEST_F(ConfigTest, ShadingIsSweptWhereLightsAreVsgls) {
   EXPECT_EQ(config.cases[2].parameters.at("variance"), "disk");
   EXPECT_EQ(config.cases[2].parameters.at("lobes"), "toksvig");
   EXPECT_EQ(shading_defines(config.cases[2].frame.shading),
-            (ShaderDefines{{"DIFFUSE_KERNEL", "3"}, {"VARIANCE", "1"}}));
+            (ShaderDefines{{"DIFFUSE_MODEL", "3"}, {"VARIANCE", "1"}}));
   EXPECT_EQ(config.cases[3].id, "cornell/all-texels/rsm=16,vis=exact,shading=exact");
   EXPECT_EQ(config.cases[5].id, "cornell/all-texels/rsm=16,vis=exact,shading=vsgl16,diffuse=tokuyoshi2022");
 }

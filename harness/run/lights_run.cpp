@@ -155,7 +155,7 @@ Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& sce
                          const LightsResult& result) const {
   const DeviceInfo& d = device_.info();
   Json json = {
-      {"schema", "vsglbench.lights/1"},
+      {"schema", "vsglbench.lights/2"},
       {"created", utc_now()},
       {"argv", options_.argv},
       {"git", {{"commit", build_git().commit}, {"dirty", build_git().dirty}}},

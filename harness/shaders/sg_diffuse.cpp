@@ -65,7 +65,7 @@ double tokuyoshi2024(double c, double k) {
 
 }  // namespace
 
-const std::vector<std::string>& diffuse_kernel_names() {
+const std::vector<std::string>& diffuse_model_names() {
   static const std::vector<std::string> names = {"cosine", "pettineo-hill", "meder-bruederlin",
                                                  "tokuyoshi2022", "tokuyoshi2024"};
   return names;
@@ -87,21 +87,21 @@ double gaussian_hemisphere(double cosine, double sharpness) {
   return t > 0 ? 0.5 + 0.5 * std::erf(t * cosine) / std::erf(t) : 0.5 + 0.5 * cosine;
 }
 
-double diffuse_kernel(DiffuseKernel kernel, double cosine, double sharpness) {
-  switch (kernel) {
-    case DiffuseKernel::cosine:
+double diffuse_model(DiffuseModel model, double cosine, double sharpness) {
+  switch (model) {
+    case DiffuseModel::cosine:
       return std::max(cosine, 0.0);
-    case DiffuseKernel::pettineo_hill:
+    case DiffuseModel::pettineo_hill:
       return pettineo_hill(cosine, sharpness);
-    case DiffuseKernel::meder_bruederlin:
+    case DiffuseModel::meder_bruederlin:
       return sg_cosine(cosine, sharpness, 0.0315, 32.7080, 31.7003, logistic_hemisphere);
-    case DiffuseKernel::tokuyoshi2022: {
+    case DiffuseModel::tokuyoshi2022: {
       const double lambda = 0.00084560872241480124;
       // 2(e^λ-1-λ) = λ² + λ³/3 + λ⁴/12 + ...: the paper prints 2e^λ-2-λ.
       const double alpha = 1 / (lambda * (1 + lambda / 3 * (1 + lambda / 4 * (1 + lambda / 5))));
       return sg_cosine(cosine, sharpness, lambda, alpha * std::exp(lambda), alpha, gaussian_hemisphere);
     }
-    case DiffuseKernel::tokuyoshi2024:
+    case DiffuseModel::tokuyoshi2024:
       return tokuyoshi2024(cosine, sharpness);
   }
   return 0;

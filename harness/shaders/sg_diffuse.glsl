@@ -1,5 +1,5 @@
 // The clamped cosine against a normalised SG: L(v,κ) = ∫G max(ω·n,0) dω / ∫G dω, by one of five formulas.
-// DIFFUSE_KERNEL: 0 cosine, 1 pettineo-hill, 2 meder-bruederlin, 3 tokuyoshi2022, 4 tokuyoshi2024.
+// DIFFUSE_MODEL: 0 cosine, 1 pettineo-hill, 2 meder-bruederlin, 3 tokuyoshi2022, 4 tokuyoshi2024.
 // Largest absolute errors against the integral stand with each; L is in [0,1], and so is every formula's
 // value here but pettineo-hill's.
 #ifndef VSGLBENCH_SG_DIFFUSE_GLSL
@@ -7,8 +7,8 @@
 
 #include "special.glsl"
 
-#ifndef DIFFUSE_KERNEL
-#define DIFFUSE_KERNEL 0
+#ifndef DIFFUSE_MODEL
+#define DIFFUSE_MODEL 0
 #endif
 
 // The cosine pulled out of the integral [VSGL15s App. B]: right for κ → ∞, by 0.05 at κ = 64, 0.75 at 0.
@@ -40,7 +40,7 @@ float gaussian_sigma(float cosine, float k) {
   return t > 0.0 ? clamp(erf(t * cosine) / erf(t), -1.0, 1.0) : cosine;
 }
 
-#if DIFFUSE_KERNEL == 2
+#if DIFFUSE_MODEL == 2
 #define HEMISPHERE_SIGMA logistic_sigma
 #else
 #define HEMISPHERE_SIGMA gaussian_sigma
@@ -129,13 +129,13 @@ float tokuyoshi2024(float cosine, float k) {
 // overflows.
 float sg_clamped_cosine(float cosine, float sharpness) {
   float c = clamp(cosine, -1.0, 1.0), k = min(sharpness, 2199023255552.0);
-#if DIFFUSE_KERNEL == 1
+#if DIFFUSE_MODEL == 1
   return pettineo_hill(c, k);
-#elif DIFFUSE_KERNEL == 2
+#elif DIFFUSE_MODEL == 2
   return meder_bruederlin(c, k);
-#elif DIFFUSE_KERNEL == 3
+#elif DIFFUSE_MODEL == 3
   return tokuyoshi2022(c, k);
-#elif DIFFUSE_KERNEL == 4
+#elif DIFFUSE_MODEL == 4
   return tokuyoshi2024(c, k);
 #else
   return cosine_pulled_out(c);

@@ -49,11 +49,11 @@ double hemispherical_integral(double cosine, double sharpness);
 //   s(v·n,κ) = (that - B)/(A - B), A and B those for v = n and v = -n  [SGL22 §3]
 double normalized_hemisphere(double cosine, double sharpness);
 
-// The formulas for L(v,κ) that `diffuse` of a configuration names, in the order of GLSL's DIFFUSE_KERNEL.
-enum class DiffuseKernel { cosine, pettineo_hill, meder_bruederlin, tokuyoshi2022, tokuyoshi2024 };
-const std::vector<std::string>& diffuse_kernel_names();
+// The formulas for L(v,κ) that `diffuse` of a configuration names, in the order of GLSL's DIFFUSE_MODEL.
+enum class DiffuseModel { cosine, pettineo_hill, meder_bruederlin, tokuyoshi2022, tokuyoshi2024 };
+const std::vector<std::string>& diffuse_model_names();
 // κ > 0 (pettineo-hill has no value at 0), else κ >= 0.
-double diffuse_kernel(DiffuseKernel kernel, double cosine, double sharpness);
+double diffuse_model(DiffuseModel model, double cosine, double sharpness);
 // The two approximations of s(v·n,κ): Meder and Brüderlin's logistic one, and [SGL22 Eq. 1].
 double logistic_hemisphere(double cosine, double sharpness);
 double gaussian_hemisphere(double cosine, double sharpness);

@@ -146,7 +146,7 @@ TEST(SgDiffuse, FormulasAreAsGoodAsPublished) {
     for (int i = 0; i <= 400; ++i) {
       const double c = -1 + i / 200.0, expected = exact::clamped_cosine(c, row.sharpness);
       for (int m = 0; m < 5; ++m) {
-        const double value = exact::diffuse_kernel(static_cast<exact::DiffuseKernel>(m), c, row.sharpness);
+        const double value = exact::diffuse_model(static_cast<exact::DiffuseModel>(m), c, row.sharpness);
         worst[m] = std::max(worst[m], std::abs(value - expected));
       }
     }

@@ -51,10 +51,10 @@ struct Lobe {
 };
 
 double clamped_cosine_by(const VsglShading& shading, double cosine, double sharpness) {
-  const bool hill = shading.diffuse == DiffuseKernel::pettineo_hill;
+  const bool hill = shading.diffuse == DiffuseModel::pettineo_hill;
   if (shading.quadrature) return clamped_cosine(cosine, sharpness);
-  if (hill) return diffuse_kernel(shading.diffuse, cosine, std::max(sharpness, 1e-6));
-  return std::clamp(diffuse_kernel(shading.diffuse, cosine, sharpness), 0.0, 1.0);
+  if (hill) return diffuse_model(shading.diffuse, cosine, std::max(sharpness, 1e-6));
+  return std::clamp(diffuse_model(shading.diffuse, cosine, sharpness), 0.0, 1.0);
 }
 
 // The specular lobe's part of ∫ f G(ω;ξ,λ) cos, with C = peak · V · F · n·l pulled out of the integral: V and

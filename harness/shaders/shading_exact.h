@@ -41,15 +41,15 @@ Surface surface_of(const gpu::Vpl& light);
 enum class VsglModel { vsgl16, vsgl14 };
 
 struct VsglShading {
-  DiffuseKernel diffuse = DiffuseKernel::cosine;  // of vsgl16
-  bool disk = false;                              // σ² counts half
-  bool quadrature = false;                        // L(v,κ) itself, instead of `diffuse`
+  DiffuseModel diffuse = DiffuseModel::cosine;  // of vsgl16
+  bool disk = false;                            // σ² counts half
+  bool quadrature = false;                      // L(v,κ) itself, instead of `diffuse`
   VsglModel model = VsglModel::vsgl16;
 };
 
 // Reflected radiance, W/(m² sr), of a light's both lobes; 0 for a light of no power.
 // Conventions: n·v is 0.01 at least; the squared distance is 1e-20 m² at least; σ² is the squared distance ×
-// 2^-41 at least, so that λ_σ <= 2^41; every diffuse kernel but pettineo-hill is held to [0,1], and
+// 2^-41 at least, so that λ_σ <= 2^41; every diffuse model but pettineo-hill is held to [0,1], and
 // pettineo-hill's sharpness to 1e-6 at least. Of vsgl14: the light's diffuse lobe is its power over π with
 // sharpness 0 and n_i its axis; its specular lobe holds its cosine [MFIS16 Eq. 7], so <-ω_i,n_i> is left out
 // there; of the receiver's coefficient, masking is taken at ω_i with the cosine, Fresnel at the axis of the

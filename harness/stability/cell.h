@@ -1,4 +1,4 @@
-// One cell of the stability table: hard case × method × diffuse kernel, and how figures become its verdict.
+// One cell of the stability table: hard case × method × diffuse model, and how figures become its verdict.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ inline constexpr double kOkError = 1e-3, kBadError = 0.05;
 
 struct StabilityCell {
   std::string hard_case, method;
-  std::string diffuse;  // kernel of the pixels' shading; "-" where lights are no VSGLs
+  std::string diffuse;  // model of the pixels' shading; "-" where lights are no VSGLs
   Stability status = Stability::ok;
   double error = 0;   // the worst relative one; infinity where something is impossible
   std::string where;  // it was: "light 3: variance", "pixel (3,1)"; empty: nothing had an error

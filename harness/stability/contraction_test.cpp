@@ -32,7 +32,7 @@ constexpr double kSlack = 1.3;
 
 TEST(Contraction, EveryOperationByItselfKeepsTheBounds) {
   for (const SgFunctionInfo& info : sg_functions()) {
-    const SgQuestion q{sg_function(info.name), exact::DiffuseKernel::tokuyoshi2024};
+    const SgQuestion q{sg_function(info.name), exact::DiffuseModel::tokuyoshi2024};
     EXPECT_LE(largest_error(q, "never"), kSlack * largest_error(q, "")) << info.name;
   }
 }
@@ -41,7 +41,7 @@ TEST(Contraction, EveryOperationByItselfKeepsTheBounds) {
 // them: lavapipe simplifies (a+b)-a where it may. Nothing else needs it to keep its bound.
 TEST(Contraction, OnlyCompensatedSumsNeedPrecise) {
   for (const SgFunctionInfo& info : sg_functions()) {
-    const SgQuestion q{sg_function(info.name), exact::DiffuseKernel::tokuyoshi2024};
+    const SgQuestion q{sg_function(info.name), exact::DiffuseModel::tokuyoshi2024};
     const double with = largest_error(q, ""), without = largest_error(q, "always");
     fmt::print("{:<20} with precise {:.2e}, without {:.2e}\n", info.name, with, without);
     if (q.function == SgFunction::asg_product) {
@@ -52,12 +52,12 @@ TEST(Contraction, OnlyCompensatedSumsNeedPrecise) {
   }
 }
 
-TEST(Contraction, DiffuseKernelsKeepTheirErrors) {
-  for (const auto kernel : {exact::DiffuseKernel::meder_bruederlin, exact::DiffuseKernel::tokuyoshi2022,
-                            exact::DiffuseKernel::tokuyoshi2024}) {
-    const SgQuestion q{SgFunction::clamped_cosine, kernel};
+TEST(Contraction, DiffuseModelsKeepTheirErrors) {
+  for (const auto model : {exact::DiffuseModel::meder_bruederlin, exact::DiffuseModel::tokuyoshi2022,
+                           exact::DiffuseModel::tokuyoshi2024}) {
+    const SgQuestion q{SgFunction::clamped_cosine, model};
     for (const char* contraction : {"never", "always"}) {
-      EXPECT_LE(largest_error(q, contraction), kSlack * largest_error(q, "")) << q.kernel_name();
+      EXPECT_LE(largest_error(q, contraction), kSlack * largest_error(q, "")) << q.model_name();
     }
   }
 }

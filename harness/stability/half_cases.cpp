@@ -129,9 +129,9 @@ HalfCase with_pdf(float chosen, float rest) {
   return c;
 }
 
-HalfCase with_kernel_size(double k) {
+HalfCase with_footprint_size(double k) {
   HalfCase c = gentle();
-  c.kernel_size = k;
+  c.footprint_size = k;
   return c;
 }
 
@@ -168,8 +168,8 @@ HardCase of(const std::string& name, const std::string& what, std::function<Half
   return {.name = name, .what = what, .half = std::move(half)};
 }
 
-HardCase with_kernels(HardCase c) {
-  c.kernels = true;
+HardCase with_models(HardCase c) {
+  c.models = true;
   return c;
 }
 
@@ -180,25 +180,24 @@ std::vector<HardCase> half_cases() {
       of("gentle", "none of the below: what the others are to be compared with", gentle),
       of("far-half", "emitter, texels and surfaces 1e3 m from the origin, not rebased",
          [] { return far_from_origin(1e3f); }),
-      with_kernels(
+      with_models(
           of("one-texel-clusters", "N = texels, each of 1e-10 m²: σ² is 0 but for that", one_texel_clusters)),
       of("one-point", "all texels at one point", [] { return shrunk(0); }),
-      with_kernels(of("sharpness", "lobes of sharpness 0 to 2^41", sharpnesses)),
+      with_models(of("sharpness", "lobes of sharpness 0 to 2^41", sharpnesses)),
       of("phong-65535", "Phong exponent 65535 at emitter and receiver",
          [] { return glossy(-65535, -65535); }),
       of("mirror-half", "GGX α = 1e-3, the smallest there is, at emitter and receiver",
          [] { return glossy(1e-3f, 1e-3f); }),
       of("phong-1e7", "Phong exponent 1e7, the largest there is, at emitter and receiver",
          [] { return glossy(-1e7f, -1e7f); }),
-      with_kernels(
-          of("on-light", "shading points at a light's own position", [] { return at_lights(0, 0); })),
-      with_kernels(of("in-light", "shading points 0.3 σ from a light", [] { return at_lights(0.3, 0); })),
-      with_kernels(of("near-light", "shading points 1e-6 m from a light", [] { return at_lights(0, 1e-6); })),
-      with_kernels(of("grazing-light", "light at a cosine of 1e-3", [] { return at_angles(1e-3, 0.5); })),
+      with_models(of("on-light", "shading points at a light's own position", [] { return at_lights(0, 0); })),
+      with_models(of("in-light", "shading points 0.3 σ from a light", [] { return at_lights(0.3, 0); })),
+      with_models(of("near-light", "shading points 1e-6 m from a light", [] { return at_lights(0, 1e-6); })),
+      with_models(of("grazing-light", "light at a cosine of 1e-3", [] { return at_angles(1e-3, 0.5); })),
       of("grazing-view", "view at a cosine of 1e-3", [] { return at_angles(0.5, 1e-3); }),
       of("grazing-both", "light and view at cosines of 1e-3", [] { return at_angles(1e-3, 1e-3); }),
       of("grazing-primary", "the primary light grazes all texels, cosine 1e-4", grazing_primary),
-      with_kernels(of("light-behind", "all lights behind the surface", [] { return at_angles(-0.5, 0.5); })),
+      with_models(of("light-behind", "all lights behind the surface", [] { return at_angles(-0.5, 0.5); })),
       of("sees-nothing", "the primary light sees no surface", sees_nothing),
       of("black-light", "a primary light without flux", black_light),
       of("radiance-1e-20", "a primary light of 1e-20 W/sr", [] { return of_power(1e-20f); }),
@@ -206,8 +205,8 @@ std::vector<HardCase> half_cases() {
       of("pdf-zero", "a PDF that is zero everywhere", [] { return with_pdf(0, 0); }),
       of("pdf-one-texel", "a PDF that is zero but at one texel", [] { return with_pdf(1, 0); }),
       of("pdf-1e12", "a PDF that is 1e12 times the rest's at one texel", [] { return with_pdf(1e12f, 1); }),
-      of("k-1e-6", "K = 1e-6", [] { return with_kernel_size(1e-6); }),
-      of("k-1e6", "K = 1e6", [] { return with_kernel_size(1e6); }),
+      of("k-1e-6", "K = 1e-6", [] { return with_footprint_size(1e-6); }),
+      of("k-1e6", "K = 1e6", [] { return with_footprint_size(1e6); }),
       of("n-1", "N = 1", [] { return with_lights(1); }),
       of("n-texels", "N = texels", [] { return with_lights(kWidth * kHeight); }),
       of("rsm-1x1", "an RSM of 1×1", [] { return of_size(1, 1, 1); }),

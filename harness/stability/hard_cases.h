@@ -14,11 +14,12 @@ namespace vsglbench {
 
 struct HalfCase {
   oracle::Half half;
-  uint32_t lights = 16;               // N
-  std::optional<double> kernel_size;  // parameter K, of methods that have one; the others leave the case out
-  bool no_surface = false;            // lights of power must not come
-  bool no_flux = false;               // nor here
-  bool no_pdf = false;                // nor here from methods that use importance
+  uint32_t lights = 16;  // N
+  std::optional<double>
+      footprint_size;       // parameter K, of methods that have one; the others leave the case out
+  bool no_surface = false;  // lights of power must not come
+  bool no_flux = false;     // nor here
+  bool no_pdf = false;      // nor here from methods that use importance
   std::function<oracle::Half(const oracle::Half&, const std::vector<LightSpot>&)> receivers =
       scattered_receivers;
 };
@@ -35,7 +36,7 @@ struct HardCase {
   std::string what;                  // one line
   std::function<HalfCase()> half;    // one of these two
   std::function<SceneCase()> scene;  // may throw
-  bool kernels = false;              // whether each diffuse kernel has a cell of its own
+  bool models = false;               // whether each diffuse model has a cell of its own
   std::string refusal;               // part of the Error's message that must come; empty: none may
 };
 

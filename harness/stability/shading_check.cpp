@@ -92,7 +92,7 @@ class Exactly {
   }
   // m of check_shading(): what one surface adds to it.
   dvec3 usual(const exact::Surface& s, const dvec3& radiance) const {
-    if (shading_.diffuse == exact::DiffuseKernel::cosine) return glm::abs(radiance);
+    if (shading_.diffuse == exact::DiffuseModel::cosine) return glm::abs(radiance);
     dvec3 sum(0);
     for (const Light& light : lights_) {
       exact::Surface turned = s;

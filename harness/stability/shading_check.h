@@ -15,8 +15,8 @@ namespace vsglbench {
 // `pixels`: radiance at each texel of `receivers`, row-major, whose emitter is the eye. The error of a
 // pixel's channel is
 //   |pixel - exact| / (|exact| + 0.01 m + 1000 s)
-// with m the mean of |exact| over all pixels or, for diffuse kernels other than the cosine, of the diffuse
-// radiance of surfaces turned to each light, where that is more: those kernels' errors are absolute
+// with m the mean of |exact| over all pixels or, for diffuse models other than the cosine, of the diffuse
+// radiance of surfaces turned to each light, where that is more: those models' errors are absolute
 // (shaders/sg_diffuse.glsl), and no smaller for a light behind the surface. s is the change of `exact` when
 // each direction that goes in (to the light, view, normals, axes) and each sharpness is off by one rounding,
 // 2^-23: a sharpness of 2^41 makes of a rounded direction an exponent that is off by 0.1, in any

@@ -43,11 +43,11 @@ std::vector<Job> jobs_of(const std::vector<StabilityRow>& rows, const std::vecto
   return jobs;
 }
 
-std::vector<std::string> kernels_of(const std::vector<std::string>& diffuse) {
-  const auto& known = exact::diffuse_kernel_names();
+std::vector<std::string> models_of(const std::vector<std::string>& diffuse) {
+  const auto& known = exact::diffuse_model_names();
   for (const std::string& name : diffuse) {
     if (std::ranges::count(known, name) == 0)
-      throw fail(ErrorKind::usage, "no diffuse kernel '{}'{}", name, suggestion(name, known));
+      throw fail(ErrorKind::usage, "no diffuse model '{}'{}", name, suggestion(name, known));
   }
   return diffuse.empty() ? known : diffuse;
 }
@@ -104,7 +104,7 @@ std::vector<StabilityCell> run_stability(const StabilityOptions& options,
                                          const std::function<void(const StabilityCell&)>& on_cell) {
   const std::vector<StabilityRow> rows = stability_rows(options.methods);
   const std::vector<Job> jobs = jobs_of(rows, options.cases);
-  const std::vector<std::string> diffuse = kernels_of(options.diffuse);
+  const std::vector<std::string> diffuse = models_of(options.diffuse);
   std::vector<StabilityCell> cells;
   const auto tell = [&](const StabilityCell& cell) {
     cells.push_back(cell);

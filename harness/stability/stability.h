@@ -1,4 +1,4 @@
-// The stability suite: hard cases × methods × diffuse kernels, each held to double precision.
+// The stability suite: hard cases × methods × diffuse models, each held to double precision.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,8 @@ std::vector<std::string> stability_cases();  // names, in order
 
 // Tries each case with each method, in a process that is started anew where a method crashes or hangs, and
 // tells each cell as it comes. The caller has neither threads nor a Vulkan device (base/child.h). Throws
-// Error(usage) for an unknown case or kernel, Error(device) without a usable device, and as stability_rows().
+// Error(usage) for an unknown case or diffuse model, Error(device) without a usable device, and as
+// stability_rows().
 std::vector<StabilityCell> run_stability(const StabilityOptions& options,
                                          const std::function<void(const StabilityCell&)>& on_cell);
 

@@ -29,10 +29,9 @@ exact::VsglShading exact_shading(const Shading& shading) {
   exact::VsglShading out;
   if (const auto model = shading.find("shading"); model != shading.end() && model->second == "vsgl14")
     out.model = exact::VsglModel::vsgl14;
-  const auto& names = exact::diffuse_kernel_names();
+  const auto& names = exact::diffuse_model_names();
   if (const auto diffuse = shading.find("diffuse"); diffuse != shading.end())
-    out.diffuse =
-        static_cast<exact::DiffuseKernel>(std::ranges::find(names, diffuse->second) - names.begin());
+    out.diffuse = static_cast<exact::DiffuseModel>(std::ranges::find(names, diffuse->second) - names.begin());
   return out;
 }
 
@@ -101,14 +100,14 @@ StabilityCell left_out(const HardCase& c, const StabilityRow& row, const std::st
 
 }  // namespace
 
-std::vector<std::string> Trial::kernels_of(const HardCase& hard_case, const StabilityRow& row) const {
+std::vector<std::string> Trial::models_of(const HardCase& hard_case, const StabilityRow& row) const {
   const MethodInfo& method = find_method(row.method);
   bool vpls = !method.makes_vpls.is_null();
   if (vpls) {
     for (const auto& [key, value] : method.makes_vpls.items()) vpls = vpls && row.parameters.at(key) == value;
   }
   if (vpls) return {"-"};
-  return hard_case.kernels ? diffuse_ : std::vector{diffuse_.front()};
+  return hard_case.models ? diffuse_ : std::vector{diffuse_.front()};
 }
 
 std::vector<StabilityCell> Trial::run(const HardCase& hard_case, const StabilityRow& row) {
@@ -121,7 +120,7 @@ std::vector<StabilityCell> Trial::run(const HardCase& hard_case, const Stability
   try {
     if (hard_case.half) return run_half(hard_case, row, *method);
     std::vector<StabilityCell> cells;
-    for (const std::string& diffuse : kernels_of(hard_case, row)) {
+    for (const std::string& diffuse : models_of(hard_case, row)) {
       cells.push_back(run_scene(hard_case, row, *method, diffuse));
     }
     return cells;
@@ -142,11 +141,11 @@ std::vector<StabilityCell> Trial::run_half(const HardCase& hard_case, const Stab
   const HalfCase c = hard_case.half();
   Judgement verdict;
   Json given = row.parameters;
-  if (c.kernel_size) {
+  if (c.footprint_size) {
     const ParameterInfo* k = parameter_named(method, "K");
     if (!k) return {left_out(hard_case, row, "no parameter K")};
-    const double used = std::clamp(*c.kernel_size, k->minimum, k->maximum);
-    if (used != *c.kernel_size) verdict.note(fmt::format("K = {:g}, the end of its range", used));
+    const double used = std::clamp(*c.footprint_size, k->minimum, k->maximum);
+    if (used != *c.footprint_size) verdict.note(fmt::format("K = {:g}, the end of its range", used));
     given["K"] = used;
   }
   if (!method.takes_light_count && hard_case.name.starts_with("n-")) {
@@ -168,7 +167,7 @@ std::vector<StabilityCell> Trial::run_half(const HardCase& hard_case, const Stab
 
   const oracle::Half receivers = c.receivers(c.half, light_spots(first));
   std::vector<StabilityCell> cells;
-  for (const std::string& diffuse : kernels_of(hard_case, row)) {
+  for (const std::string& diffuse : models_of(hard_case, row)) {
     Judgement all = verdict;
     const Shading shading = shading_of(row, diffuse);
     const auto pixels = shading_.shade(receivers, first, shading);

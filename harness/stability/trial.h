@@ -9,7 +9,7 @@ namespace vsglbench {
 
 class Trial {
  public:
-  // `diffuse`: names of kernels; the first is that of cases that ask for one.
+  // `diffuse`: names of diffuse models; the first is that of cases that ask for one.
   Trial(KernelLibrary& kernels, std::vector<std::string> diffuse)
       : kernels_(kernels), shading_(kernels), diffuse_(std::move(diffuse)) {}
 
@@ -17,7 +17,7 @@ class Trial {
   std::vector<StabilityCell> run(const HardCase& hard_case, const StabilityRow& row);
 
  private:
-  std::vector<std::string> kernels_of(const HardCase& hard_case, const StabilityRow& row) const;
+  std::vector<std::string> models_of(const HardCase& hard_case, const StabilityRow& row) const;
   std::vector<StabilityCell> run_half(const HardCase& hard_case, const StabilityRow& row,
                                       const MethodInfo& method);
   StabilityCell run_scene(const HardCase& hard_case, const StabilityRow& row, const MethodInfo& method,

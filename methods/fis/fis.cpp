@@ -1,11 +1,11 @@
-// Filtered importance sampling: mip level from the PDF at the kernel's centre [MFIS16 Eq. 1, 4].
+// Filtered importance sampling: mip level from the PDF at the footprint's centre [MFIS16 Eq. 1, 4].
 #include "method/filtered_sampling.h"
 #include "method/plugin.h"
 
 VSGLBENCH_METHOD(MethodInfo{
-    .summary = "filtered importance sampling, kernel size from the PDF at the kernel's centre",
+    .summary = "filtered importance sampling, footprint size from the PDF at the footprint's centre",
     .source = "[MFIS16] Eq. 1, 4; Tokuyoshi 2015",
-    .parameters = {{"K", 1.0, "kernel size: K/N of the image at mean density", 1e-6, 1e6, {}}},
+    .parameters = {{"K", 1.0, "footprint size: K/N of the image at mean density", 1e-6, 1e6, {}}},
     .flux_bound = 0.01,
     .create = [](MethodContext& context, const Json& parameters) {
       return make_filtered_sampling(context, "fis.comp", parameters.at("K").get<float>());

@@ -1,4 +1,4 @@
-// Modified filtered importance sampling: the kernel holds the same probability everywhere [MFIS16].
+// Modified filtered importance sampling: the footprint holds the same probability everywhere [MFIS16].
 #version 460
 #include "types.h"
 #include "filtered_sampling.glsl"

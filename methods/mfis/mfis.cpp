@@ -1,11 +1,12 @@
-// Modified filtered importance sampling: mip level from the PDF's integral over the kernel [MFIS16 Eq. 3, 5].
+// Modified filtered importance sampling: mip level from the PDF's integral over the footprint [MFIS16 Eq. 3,
+// 5].
 #include "method/filtered_sampling.h"
 #include "method/plugin.h"
 
 VSGLBENCH_METHOD(MethodInfo{
-    .summary = "modified filtered importance sampling, kernels of equal probability",
+    .summary = "modified filtered importance sampling, footprints of equal probability",
     .source = "[MFIS16] Eq. 3, 5, Alg. 1",
-    .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}}},
+    .parameters = {{"K", 1.0, "footprint size: each footprint holds K/N of the probability", 1e-6, 1e6, {}}},
     .flux_bound = 0.03,
     .uneven_flux_bound = 0.3,  // [MFIS16 Eq. 5] itself: E[Σ] = ∫ f̄ p/p̄
     .create = [](MethodContext& context, const Json& parameters) {

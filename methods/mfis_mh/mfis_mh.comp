@@ -1,4 +1,5 @@
-// The kernels of `mfis` round centres drawn by Metropolis-Hastings (Barák et al. 2013; [MFIS16] §6, Fig. 8).
+// The footprints of `mfis` round centres drawn by Metropolis-Hastings (Barák et al. 2013; [MFIS16] §6, Fig.
+// 8).
 //
 // Unlike Barák et al., who carry each chain over from one frame to the next, every frame runs each chain anew
 // from the point that `mfis` would take with the same random numbers. A centre depends on the PDF alone, and

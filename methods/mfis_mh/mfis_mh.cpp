@@ -3,9 +3,10 @@
 #include "method/plugin.h"
 
 VSGLBENCH_METHOD(MethodInfo{
-    .summary = "kernels of equal probability round Metropolis-Hastings centres, coherent from frame to frame",
+    .summary =
+        "footprints of equal probability round Metropolis-Hastings centres, coherent from frame to frame",
     .source = "Barák et al. 2013; [MFIS16] §6, Fig. 8",
-    .parameters = {{"K", 1.0, "kernel size: each kernel holds K/N of the probability", 1e-6, 1e6, {}},
+    .parameters = {{"K", 1.0, "footprint size: each footprint holds K/N of the probability", 1e-6, 1e6, {}},
                    {"steps", 64, "of each chain", 1, 4096, {}}},
     .flux_bound = 0.1,
     .uneven_flux_bound = 0.3,  // as of mfis

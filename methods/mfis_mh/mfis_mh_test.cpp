@@ -10,8 +10,8 @@ namespace {
 
 using Texels = std::vector<uint32_t>;
 
-// Centres' texels, y·width + x. With kernels of next to no probability each light is its centre's texel, and
-// its mean that texel's position.
+// Centres' texels, y·width + x. With footprints of next to no probability each light is its centre's texel,
+// and its mean that texel's position.
 Texels centres(const std::string& method, const oracle::Half& half, uint32_t count,
                Json parameters = Json::object(), glm::uvec2 shift = {0, 0}) {
   parameters["K"] = 1e-6;

@@ -1,12 +1,12 @@
-// Kernels that hold the same probability everywhere [MFIS16 §3.2, §4.2]: kernel_level() and kernel_share() of
-// filtered_sampling.glsl, which is included before.
+// Footprints that hold the same probability everywhere [MFIS16 §3.2, §4.2]: footprint_level() and
+// footprint_share() of filtered_sampling.glsl, which is included before.
 
 // Solves 4^l/M p̄(x,l) = K/N by bisection [MFIS16 Eq. 3, Alg. 1], 12 steps as in the paper.
-float kernel_level(Centre c) {
+float footprint_level(Centre c) {
   float lo = 0.0, hi = float(top_level(base_size()));
   for (int k = 0; k < 12; ++k) {
     float level = 0.5 * (lo + hi);
-    if (kernel_area(level) * filtered_pdf(c, level) < kernel_size / float(count)) {
+    if (footprint_area(level) * filtered_pdf(c, level) < footprint_size / float(count)) {
       lo = level;
     } else {
       hi = level;
@@ -18,7 +18,7 @@ float kernel_level(Centre c) {
 }
 
 // f̄/(N p̄(x,l)) [MFIS16 Eq. 5].
-float kernel_share(Centre c, float level) {
+float footprint_share(Centre c, float level) {
   float p = filtered_pdf(c, level);
   return p > 0.0 ? 1.0 / (float(count) * p) : 0.0;
 }

@@ -1,6 +1,6 @@
 // VSGLs by filtered importance sampling [MFIS16 §3–4, App. D]. The including kernel defines
-//   float kernel_level(Centre c)               the mip level l_i
-//   float kernel_share(Centre c, float level)  the total is this times the filtered mean f̄(x_i, l_i)
+//   float footprint_level(Centre c)               the mip level l_i
+//   float footprint_share(Centre c, float level)  the total is this times the filtered mean f̄(x_i, l_i)
 // and, with OWN_CENTRES, uvec2 choose_texel(uint i), the base texel of light i; else a stratified point is
 // warped.
 layout(local_size_x = 64) in;
@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push {
   uint count;  // N
   uint step;   // floor(2^32/N)
   uvec2 shift;
-  float kernel_size;  // K
+  float footprint_size;  // K
 };
 
 struct Centre {
@@ -41,10 +41,10 @@ float filtered_pdf(Centre c, float level) {
   return mix(pdf_on_level(c, lo), pdf_on_level(c, min(lo + 1u, top)), level - float(lo));
 }
 // 4^l/M.
-float kernel_area(float level) { return exp2(2.0 * level) / texel_count(); }
+float footprint_area(float level) { return exp2(2.0 * level) / texel_count(); }
 
-float kernel_level(Centre c);
-float kernel_share(Centre c, float level);
+float footprint_level(Centre c);
+float footprint_share(Centre c, float level);
 #ifdef OWN_CENTRES
 uvec2 choose_texel(uint i);
 #else
@@ -78,9 +78,9 @@ void main() {
   // 1. Centre.
   uvec2 texel = choose_texel(i);
   Centre c = Centre(vec2(texel) + 0.5, PDF(texel.y * width + texel.x) / mean, 1.0 / mean);
-  // 2. Kernel size.  3. Total of the RSM values within the kernel.
-  float level = kernel_level(c);
-  float share = kernel_share(c, level) * texel_count();  // stored powers are per texel
+  // 2. Size of the footprint.  3. Total of the RSM values within it.
+  float level = footprint_level(c);
+  float share = footprint_share(c, level) * texel_count();  // stored powers are per texel
   lights[i] = make_vsgl(filtered_moments(c, level), share, level);
   squares[i] = vec4(c.position, exp2(level), 0.0);
 }

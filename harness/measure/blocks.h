@@ -1,7 +1,7 @@
-// Inside measure/ only: the blocks that kernel_map.h names.
+// Inside measure/ only: the blocks that block_map.h names.
 #pragma once
 
-#include "measure/kernel_map.h"
+#include "measure/block_map.h"
 #include "method/context.h"
 
 namespace vsglbench {

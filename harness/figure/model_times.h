@@ -1,4 +1,4 @@
-// Which diffuse kernel is the faster, as far as the noise lets one tell.
+// Which diffuse model is the faster, as far as the noise lets one tell.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace vsglbench::sgl22 {
 
-// Times of frames that took turns, ms. `twin`: of a second frame with the kernel tokuyoshi2022; what the two
+// Times of frames that took turns, ms. `twin`: of a second frame with the model tokuyoshi2022; what the two
 // differ by is noise (A/A).
-class KernelTimes {
+class ModelTimes {
  public:
-  KernelTimes() = default;
-  KernelTimes(std::vector<std::vector<double>> by_kernel, std::vector<double> twin);
+  ModelTimes() = default;
+  ModelTimes(std::vector<std::vector<double>> by_model, std::vector<double> twin);
 
-  const std::vector<double>& of(exact::DiffuseKernel kernel) const {
-    return ms_.at(static_cast<size_t>(kernel));
+  const std::vector<double>& of(exact::DiffuseModel model) const {
+    return ms_.at(static_cast<size_t>(model));
   }
   // Whether `a` takes less time than `b` (measure/verdict.h). Undecided, too, where the device's clock shows
   // nothing for a frame.
-  Finding faster(exact::DiffuseKernel a, exact::DiffuseKernel b) const;
+  Finding faster(exact::DiffuseModel a, exact::DiffuseModel b) const;
   // Medians with their intervals, and the noise.
-  std::string figures(const std::vector<exact::DiffuseKernel>& kernels) const;
+  std::string figures(const std::vector<exact::DiffuseModel>& models) const;
 
  private:
   std::vector<std::vector<double>> ms_;

@@ -1,4 +1,4 @@
-#include "measure/kernel_map.h"
+#include "measure/block_map.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 namespace vsglbench {
 namespace {
 
-TEST(KernelMap, FitsTheExponentOfAPowerLaw) {
+TEST(BlockMap, FitsTheExponentOfAPowerLaw) {
   EXPECT_NEAR(growth_exponent({{1, 3}, {10, 30}, {100, 300}}), 1, 1e-12);
   EXPECT_NEAR(growth_exponent({{4, 5 * std::sqrt(4.0)}, {64, 5 * 8}}), 0.5, 1e-12);
 }
 
-TEST(KernelMap, SizesOfImages) {
+TEST(BlockMap, SizesOfImages) {
   EXPECT_EQ(image_size(2088960), std::pair(1920u, 1088u));
   EXPECT_EQ(image_size(262144), std::pair(512u, 512u));
   for (const uint64_t n : {1, 2, 7, 12, 257}) {
@@ -24,11 +24,11 @@ TEST(KernelMap, SizesOfImages) {
 }
 
 // Every block at a small size: right results, and a row for each contestant.
-TEST(KernelMap, EveryBlockIsRightBeforeItIsTimed) {
+TEST(BlockMap, EveryBlockIsRightBeforeItIsTimed) {
   Device device;
   for (const auto& name : block_names()) {
     const auto block = make_block(device, name);
-    const KernelMap map = measure_block(*block, {4096, 12000}, 2);
+    const BlockMap map = measure_block(*block, {4096, 12000}, 2);
     EXPECT_FALSE(map.times.empty());
     bool host = false, on_device = false;
     for (const BlockTime& t : map.times) {
@@ -38,12 +38,12 @@ TEST(KernelMap, EveryBlockIsRightBeforeItIsTimed) {
     }
     EXPECT_TRUE(host && on_device) << name;
     EXPECT_FALSE(map.growth.empty()) << name;
-    for (const auto& input : block->inputs()) EXPECT_NE(kernel_table(map).find(input), std::string::npos);
+    for (const auto& input : block->inputs()) EXPECT_NE(block_table(map).find(input), std::string::npos);
   }
 }
 
 // A contestant whose result is wrong is named and not timed.
-TEST(KernelMap, AWrongResultIsAnError) {
+TEST(BlockMap, AWrongResultIsAnError) {
   struct Wrong : Block {
     int runs = 0;
     std::string name() const override { return "wrong"; }

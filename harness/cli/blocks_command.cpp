@@ -5,13 +5,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
-#include "measure/kernel_map.h"
+#include "measure/block_map.h"
 #include "report/environment.h"
 
 namespace vsglbench {
 namespace {
 
-struct KernelsOptions {
+struct BlocksOptions {
   std::vector<std::string> blocks;
   std::vector<uint64_t> sizes;
   int repetitions = 9;
@@ -37,15 +37,15 @@ std::vector<uint64_t> distinct(const std::vector<uint64_t>& sizes) {
   return out;
 }
 
-void measure(const KernelsOptions& options, const std::vector<std::string>& argv) {
+void measure(const BlocksOptions& options, const std::vector<std::string>& argv) {
   if (!options.out.empty()) check_writable(options.out);
   Device device({.select = options.device});
   const std::vector<uint64_t> sizes = distinct(options.sizes);
   Json maps = Json::array();
   for (const auto& name : options.blocks) {
     const auto block = make_block(device, name);
-    const KernelMap map = measure_block(*block, sizes.empty() ? block->sizes() : sizes, options.repetitions);
-    fmt::print("{}\n", kernel_table(map));
+    const BlockMap map = measure_block(*block, sizes.empty() ? block->sizes() : sizes, options.repetitions);
+    fmt::print("{}\n", block_table(map));
     std::fflush(stdout);
     maps.push_back(to_json(map));
   }
@@ -54,7 +54,7 @@ void measure(const KernelsOptions& options, const std::vector<std::string>& argv
   fmt::print("device: {} ({}, {} {}){}; host: {}, {} cores\n", d.name, d.type, d.driver, d.driver_version,
              device.is_cpu() ? ", the host's own cores" : "", host.cpu, host.cores);
   if (options.out.empty()) return;
-  const Json report = {{"schema", "vsglbench.kernels/1"},
+  const Json report = {{"schema", "vsglbench.blocks/1"},
                        {"argv", argv},
                        {"git", {{"commit", build_git().commit}, {"dirty", build_git().dirty}}},
                        {"device",
@@ -70,27 +70,30 @@ void measure(const KernelsOptions& options, const std::vector<std::string>& argv
 
 }  // namespace
 
-void add_kernels_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult*) {
-  auto options = std::make_shared<KernelsOptions>();
-  CLI::App* command = app.add_subcommand("kernels", "time the methods' building blocks over their sizes");
-  command->footer(
-      "Each block is checked against the host's result before it is timed, and timed in turn with it. A size "
-      "that\nthe device has no room for is reported as skipped.\n"
-      "Example: vsglbench kernels sort --sizes 262144 2088960 --out kernels.json");
-  command
-      ->add_option("blocks", options->blocks,
-                   "sort, nearest, sum, warp, mipmap; several or none: all of them")
-      ->check(CLI::IsMember(block_names()));
-  command->add_option("--sizes", options->sizes, "instead of each block's own")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
-  command->add_option("--repetitions", options->repetitions, "timed runs of each (default 9)")
-      ->check(CLI::Range(1, 10000));
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
-  command->add_option("--out", options->out, "file for the report as JSON");
-  command->callback([=] {
-    if (options->blocks.empty()) options->blocks = block_names();
-    measure(*options, argv);
-  });
+void add_blocks_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult*) {
+  for (const std::string name : {"blocks", "kernels"}) {
+    auto options = std::make_shared<BlocksOptions>();
+    CLI::App* command = app.add_subcommand(name, "time the methods' building blocks over their sizes");
+    if (name == "kernels") command->group("");  // its name of version 0.1.0, for one release
+    command->footer(
+        "Each block is checked against the host's result before it is timed, and timed in turn with it. A "
+        "size that\nthe device has no room for is reported as skipped.\n"
+        "Example: vsglbench blocks sort --sizes 262144 2088960 --out blocks.json");
+    command
+        ->add_option("blocks", options->blocks,
+                     "sort, nearest, sum, warp, mipmap; several or none: all of them")
+        ->check(CLI::IsMember(block_names()));
+    command->add_option("--sizes", options->sizes, "instead of each block's own")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
+    command->add_option("--repetitions", options->repetitions, "timed runs of each (default 9)")
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+    command->add_option("--out", options->out, "file for the report as JSON");
+    command->callback([=] {
+      if (options->blocks.empty()) options->blocks = block_names();
+      measure(*options, argv);
+    });
+  }
 }
 
 }  // namespace vsglbench

@@ -1,4 +1,4 @@
-#include "figure/kernel_times.h"
+#include "figure/model_times.h"
 
 #include <fmt/format.h>
 
@@ -16,22 +16,22 @@ bool all_positive(const std::vector<double>& times) {
 
 }  // namespace
 
-KernelTimes::KernelTimes(std::vector<std::vector<double>> by_kernel, std::vector<double> twin)
-    : ms_(std::move(by_kernel)), measurable_(std::ranges::all_of(ms_, all_positive) && all_positive(twin)) {
-  if (measurable_) noise_ = noise_floor(median_ratio(of(exact::DiffuseKernel::tokuyoshi2022), twin));
+ModelTimes::ModelTimes(std::vector<std::vector<double>> by_model, std::vector<double> twin)
+    : ms_(std::move(by_model)), measurable_(std::ranges::all_of(ms_, all_positive) && all_positive(twin)) {
+  if (measurable_) noise_ = noise_floor(median_ratio(of(exact::DiffuseModel::tokuyoshi2022), twin));
 }
 
-Finding KernelTimes::faster(exact::DiffuseKernel a, exact::DiffuseKernel b) const {
+Finding ModelTimes::faster(exact::DiffuseModel a, exact::DiffuseModel b) const {
   if (!measurable_) return Finding::undecided;
   const Verdict verdict = compare_times(of(a), of(b), noise_);
   return verdict == Verdict::ambiguous ? Finding::undecided : finding(verdict == Verdict::faster);
 }
 
-std::string KernelTimes::figures(const std::vector<exact::DiffuseKernel>& kernels) const {
+std::string ModelTimes::figures(const std::vector<exact::DiffuseModel>& models) const {
   std::string out;
-  for (const auto kernel : kernels) {
-    const Summary s = summarize(of(kernel));
-    out += fmt::format("{} {:.4g} ms, 95 % [{:.4g}, {:.4g}]; ", name(kernel), s.median, s.ci95.lo, s.ci95.hi);
+  for (const auto model : models) {
+    const Summary s = summarize(of(model));
+    out += fmt::format("{} {:.4g} ms, 95 % [{:.4g}, {:.4g}]; ", name(model), s.median, s.ci95.lo, s.ci95.hi);
   }
   return out + fmt::format("A/A noise {:.2g} %", 100 * noise_);
 }

@@ -48,7 +48,7 @@ struct Growth {
   std::string input, contestant;
   double exponent = 0;
 };
-struct KernelMap {
+struct BlockMap {
   std::string block, counted;
   std::vector<BlockTime> times;
   std::vector<Growth> growth;  // none of a contestant with fewer than two sizes
@@ -59,13 +59,13 @@ struct KernelMap {
 // Every input × size: each contestant once, checked; then `repetitions` rounds of all of them in turn. An
 // input that the device has no room for is skipped. Throws Error(case_failed) for a wrong result, naming
 // input, size and contestant.
-KernelMap measure_block(Block& block, const std::vector<uint64_t>& sizes, int repetitions);
+BlockMap measure_block(Block& block, const std::vector<uint64_t>& sizes, int repetitions);
 
 // The exponent of a power law through (size, ms) points; sizes differ.
 double growth_exponent(const std::vector<std::pair<double, double>>& points);
 
-std::string kernel_table(const KernelMap& map);
-Json to_json(const KernelMap& map);
+std::string block_table(const BlockMap& map);
+Json to_json(const BlockMap& map);
 
 // GPU time of what `record` records, as one pass.
 double device_ms(Recorder& recorder, const std::function<void()>& record);

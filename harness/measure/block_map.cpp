@@ -1,4 +1,4 @@
-#include "measure/kernel_map.h"
+#include "measure/block_map.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/nearest.h"
-#include "measure/kernel_blocks.h"
+#include "measure/blocks.h"
 #include "measure/stopwatch.h"
 
 namespace vsglbench {
@@ -44,7 +44,7 @@ std::vector<std::vector<double>> time_in_turn(const std::vector<Contestant>& con
   return ms;
 }
 
-void add_growth(const std::string& input, const std::vector<Contestant>& contestants, KernelMap* map) {
+void add_growth(const std::string& input, const std::vector<Contestant>& contestants, BlockMap* map) {
   for (const Contestant& c : contestants) {
     std::vector<std::pair<double, double>> points;
     for (const BlockTime& t : map->times) {
@@ -56,7 +56,7 @@ void add_growth(const std::string& input, const std::vector<Contestant>& contest
 }
 
 // The fastest of the host's at the same input and size.
-const BlockTime* counterpart(const KernelMap& map, const BlockTime& of) {
+const BlockTime* counterpart(const BlockMap& map, const BlockTime& of) {
   const BlockTime* best = nullptr;
   for (const BlockTime& t : map.times) {
     if (t.on_device || t.input != of.input || t.size != of.size) continue;
@@ -87,8 +87,8 @@ std::unique_ptr<Block> make_block(Device& device, const std::string& name) {
   throw fail(ErrorKind::usage, "no building block '{}'{}", name, suggestion(name, block_names()));
 }
 
-KernelMap measure_block(Block& block, const std::vector<uint64_t>& sizes, int repetitions) {
-  KernelMap map{block.name(), block.counted(), {}, {}, {}};
+BlockMap measure_block(Block& block, const std::vector<uint64_t>& sizes, int repetitions) {
+  BlockMap map{block.name(), block.counted(), {}, {}, {}};
   for (const auto& input : block.inputs()) {
     std::vector<Contestant> contestants;
     for (const uint64_t size : sizes) {
@@ -121,7 +121,7 @@ double growth_exponent(const std::vector<std::pair<double, double>>& points) {
   return xy / xx;
 }
 
-std::string kernel_table(const KernelMap& map) {
+std::string block_table(const BlockMap& map) {
   std::string out = fmt::format("{:<22} {:<22} {:>9} {:>10} {:>21} {:>12} {:>16}\n", map.block, "",
                                 map.counted, "ms", "95 % interval", "million/s", "time/host's time");
   for (const BlockTime& t : map.times) {
@@ -138,7 +138,7 @@ std::string kernel_table(const KernelMap& map) {
   return out;
 }
 
-Json to_json(const KernelMap& map) {
+Json to_json(const BlockMap& map) {
   Json times = Json::array(), growth = Json::array();
   for (const BlockTime& t : map.times) {
     times.push_back({{"input", t.input},
