@@ -1,0 +1,286 @@
+// Cases are paired by id, seeds by number; times of one case are two independent samples, those of one pass over all
+// cases are pairs of medians.
+#include "answer/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "base/error.h"
+#include "report/noise.h"
+
+namespace vsglbench {
+namespace {
+
+constexpr double kLeastSuperiority = 0.8;
+constexpr int kResamples = 2000;
+
+// Mann and Whitney's U as a probability; ties count half.
+double superiority_of(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> sorted = b;
+  std::ranges::sort(sorted);
+  double wins = 0;
+  for (const double v : a) {
+    const auto [lower, upper] = std::ranges::equal_range(sorted, v);
+    wins += static_cast<double>(lower - sorted.begin()) + 0.5 * static_cast<double>(upper - lower);
+  }
+  return wins / (static_cast<double>(a.size()) * static_cast<double>(b.size()));
+}
+
+// exp of the mean of `logs` with the percentile bootstrap's interval.
+Ratio geometric_mean(const std::vector<double>& logs) {
+  std::mt19937_64 random(1);
+  const size_t n = logs.size();
+  double sum = 0;
+  for (const double v : logs) sum += v;
+  std::vector<double> means(kResamples);
+  for (double& mean : means) {
+    double s = 0;
+    for (size_t i = 0; i < n; ++i) s += logs[random() % n];
+    mean = s / static_cast<double>(n);
+  }
+  std::ranges::sort(means);
+  return {std::exp(sum / static_cast<double>(n)),
+          {std::exp(quantile_sorted(means, 0.025)), std::exp(quantile_sorted(means, 0.975))}};
+}
+
+Change time_change(const Ratio& r, double noise, double superiority) {
+  const double above = 1 + std::max(noise, kSmallestEffect), below = 1 / above;
+  if (r.ci95.lo > above && superiority >= kLeastSuperiority) return Change::slower;
+  if (r.ci95.hi < below && superiority >= kLeastSuperiority) return Change::faster;
+  return r.ci95.lo >= below && r.ci95.hi <= above ? Change::same : Change::ambiguous;
+}
+
+double larger_noise(const Report& base, const Report& now, const std::string& scene, const std::string& time) {
+  double noise = 0;
+  for (const Report* report : {&base, &now}) {
+    if (const TimeNoise* n = noise_of(*report, scene, time)) noise = std::max(noise, n->noise_floor);
+  }
+  return noise;
+}
+
+// The A/A pair's time that a pass is part of.
+std::string column_of(const std::string& pass) {
+  if (pass == "gbuffer" || pass == "rsm") return "frame";
+  return pass.starts_with("generate.") ? "generate" : "method";
+}
+
+struct Pair {
+  const CaseResult *base, *now;
+};
+
+std::map<std::string, const CaseResult*> by_id(const Report& report) {
+  std::map<std::string, const CaseResult*> out;
+  for (const CaseResult& c : report.cases) out[c.id] = &c;
+  return out;
+}
+
+std::vector<Pair> pair_up(const Report& base, const Report& now, Comparison* out) {
+  const auto before = by_id(base), after = by_id(now);
+  std::vector<Pair> pairs;
+  for (const CaseResult& b : base.cases) {
+    const auto at = after.find(b.id);
+    if (at == after.end()) {
+      out->missing.push_back(b.id);
+      continue;
+    }
+    const CaseResult& n = *at->second;
+    if (b.status == Status::ok && n.status == Status::ok) pairs.push_back({&b, &n});
+    if (b.status == Status::ok && n.status == Status::failed) out->broken.push_back(b.id);
+    if (b.status == Status::failed && n.status == Status::ok) out->mended.push_back(b.id);
+  }
+  for (const CaseResult& n : now.cases) {
+    if (!before.contains(n.id)) out->added.push_back(n.id);
+  }
+  out->cases = pairs.size();
+  return pairs;
+}
+
+struct MetricField {
+  const char* name;
+  Metric metric;
+  MetricResult Accuracy::*result;
+};
+constexpr std::array<MetricField, 7> kFields = {{{"smape", Metric::smape, &Accuracy::smape},
+                                                 {"smape_lit", Metric::smape_lit, &Accuracy::smape_lit},
+                                                 {"rmse", Metric::rmse, &Accuracy::rmse},
+                                                 {"rrmse", Metric::rrmse, &Accuracy::rrmse},
+                                                 {"mrse", Metric::mrse, &Accuracy::mrse},
+                                                 {"bias", Metric::bias, &Accuracy::bias},
+                                                 {"flip", Metric::flip, &Accuracy::flip}}};
+
+std::string refusal_of(const Report& base, const Report& now, const std::vector<Pair>& pairs,
+                       const CompareOptions& options) {
+  if (pairs.empty()) return "no case is in both reports and ok in both";
+  if (base.device.name != now.device.name && !options.other_device && !options.ratios) {
+    return fmt::format("the devices differ: '{}' and '{}'; --ratios compares what holds on both", base.device.name,
+                       now.device.name);
+  }
+  for (const Pair& p : pairs) {
+    if (!p.base->accuracy || !p.now->accuracy) continue;
+    if (p.base->accuracy->reference.hash != p.now->accuracy->reference.hash) {
+      return fmt::format("{}: the references differ ({} and {}), so the errors are of other things", p.base->id,
+                         p.base->accuracy->reference.hash, p.now->accuracy->reference.hash);
+    }
+    for (const MetricField& f : kFields) {
+      const MetricResult &b = (*p.base->accuracy).*f.result, &n = (*p.now->accuracy).*f.result;
+      if (b.empty() || n.empty() || (b.formula == n.formula && b.constants == n.constants)) continue;
+      return fmt::format("{}: {} has two formulas, '{}' and '{}'", p.base->id, f.name, b.formula, n.formula);
+    }
+  }
+  return "";
+}
+
+// The first case of each scene, which ratios are to.
+using Anchors = std::map<std::string, Pair>;
+Anchors anchors_of(const std::vector<Pair>& pairs) {
+  Anchors out;
+  for (const Pair& p : pairs) out.try_emplace(p.base->scene, p);
+  return out;
+}
+
+// ms over the anchor's median, or as they are.
+std::optional<std::vector<double>> samples_of(const CaseResult& c, const CaseResult* anchor) {
+  const auto ms = time_of(c, "method");
+  if (!ms || !(ms->min > 0)) return std::nullopt;
+  if (!anchor) return ms->samples;
+  const auto unit = time_of(*anchor, "method");
+  if (!unit || !(unit->min > 0)) return std::nullopt;
+  std::vector<double> out = ms->samples;
+  for (double& v : out) v /= unit->median;
+  return out;
+}
+
+void compare_times_of(const Report& base, const Report& now, const std::vector<Pair>& pairs,
+                      const CompareOptions& options, Comparison* out) {
+  const Anchors anchors = anchors_of(pairs);
+  for (const Pair& p : pairs) {
+    const Pair& anchor = anchors.at(p.base->scene);
+    if (options.ratios && anchor.base == p.base) continue;
+    const auto b = samples_of(*p.base, options.ratios ? anchor.base : nullptr),
+               n = samples_of(*p.now, options.ratios ? anchor.now : nullptr);
+    if (!b || !n) continue;
+    TimeChange t{p.base->scene, p.base->id, "method", median_ratio(*n, *b), 0, 0.5, Change::same};
+    t.noise = larger_noise(base, now, t.scene, "method");
+    const double wins = superiority_of(*n, *b);
+    t.superiority = std::max(wins, 1 - wins);
+    t.change = time_change(t.ratio, t.noise, t.superiority);
+    out->times.push_back(std::move(t));
+  }
+}
+
+void compare_passes(const Report& base, const Report& now, const std::vector<Pair>& pairs,
+                    const CompareOptions& options, Comparison* out) {
+  std::map<std::string, std::vector<double>> logs;
+  std::map<std::string, std::vector<double>> noise;
+  const Anchors anchors = anchors_of(pairs);
+  for (const Pair& p : pairs) {
+    double unit = 0;
+    if (options.ratios) {
+      const Pair& a = anchors.at(p.base->scene);
+      const auto b = time_of(*a.base, "method"), n = time_of(*a.now, "method");
+      if (!b || !n || !(b->min > 0) || !(n->min > 0)) continue;
+      unit = std::log(n->median / b->median);
+    }
+    for (const PassTiming& pass : p.base->passes) {
+      const auto at = std::ranges::find(p.now->passes, pass.name, &PassTiming::name);
+      if (at == p.now->passes.end() || !(pass.ms.median > 0) || !(at->ms.median > 0)) continue;
+      logs[pass.name].push_back(std::log(at->ms.median / pass.ms.median) - unit);
+      noise[pass.name].push_back(larger_noise(base, now, p.base->scene, column_of(pass.name)));
+    }
+  }
+  for (const auto& [pass, values] : logs) {
+    if (values.size() < 3) continue;  // nothing to resample
+    TimeChange t{"", "", pass, geometric_mean(values), median(noise.at(pass)), 0, Change::same};
+    const auto slower = static_cast<double>(std::ranges::count_if(values, [](double v) { return v > 0; }));
+    const double share = slower / static_cast<double>(values.size());
+    t.superiority = std::max(share, 1 - share);
+    t.change = time_change(t.ratio, t.noise, t.superiority);
+    out->passes.push_back(std::move(t));
+  }
+}
+
+// What is compared of a metric: its own value; of bias the image's energy, which is above 0.
+double size_of(Metric metric, double value) { return metric == Metric::bias ? 1 + value : value; }
+
+std::vector<double> paired_logs(const Pair& p, Metric metric) {
+  std::map<uint64_t, double> before;
+  std::vector<double> logs;
+  for (const SeedResult& s : p.base->seeds) {
+    if (const auto v = s.errors.value(metric)) before[s.seed] = size_of(metric, *v);
+  }
+  for (const SeedResult& s : p.now->seeds) {
+    const auto v = s.errors.value(metric);
+    const auto at = before.find(s.seed);
+    if (!v || at == before.end() || !(at->second > 0) || !(size_of(metric, *v) > 0)) continue;
+    logs.push_back(std::log(size_of(metric, *v) / at->second));
+  }
+  return logs;
+}
+
+// Student's interval of the mean log ratio; a single seed has none, and its ratio is taken for exact: images are
+// the same to the bit where nothing changed.
+Ratio error_ratio(const std::vector<double>& logs) {
+  const MeanEstimate m = mean_ci95(logs);
+  return {std::exp(m.mean), {std::exp(m.ci95.lo), std::exp(m.ci95.hi)}};
+}
+
+Change error_change(Metric metric, const ErrorChange& e) {
+  const double above = 1 + kSmallestEffect, below = 1 / above;
+  if (e.ratio.ci95.lo >= below && e.ratio.ci95.hi <= above) return Change::same;
+  if (e.ratio.ci95.lo <= above && e.ratio.ci95.hi >= below) return Change::ambiguous;
+  if (metric == Metric::bias) return std::abs(e.now) > std::abs(e.base) ? Change::worse : Change::better;
+  return e.ratio.value > 1 ? Change::worse : Change::better;
+}
+
+void compare_errors_of(const std::vector<Pair>& pairs, Comparison* out) {
+  for (const Pair& p : pairs) {
+    if (!p.base->accuracy || !p.now->accuracy) continue;
+    for (const MetricField& f : kFields) {
+      const MetricResult &b = (*p.base->accuracy).*f.result, &n = (*p.now->accuracy).*f.result;
+      if (!b.value || !n.value) continue;
+      const std::vector<double> logs = paired_logs(p, f.metric);
+      if (logs.empty()) continue;
+      ErrorChange e{p.base->id, f.name, *b.value, *n.value, error_ratio(logs), Change::same};
+      e.change = error_change(f.metric, e);
+      out->errors.push_back(std::move(e));
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view name(Change change) {
+  static constexpr std::array names = {"faster", "slower", "better", "worse", "same", "ambiguous"};
+  return names.at(static_cast<size_t>(change));
+}
+
+bool is_regression(Change change) { return change == Change::slower || change == Change::worse; }
+
+int Comparison::exit_code() const {
+  if (!refusal.empty()) return 5;
+  const auto regressed = [](const auto& c) { return is_regression(c.change); };
+  if (!broken.empty() || std::ranges::any_of(errors, regressed)) return 4;
+  if (byte_equal) return 0;
+  if (std::ranges::any_of(passes, regressed) || std::ranges::any_of(times, regressed)) return 4;
+  const auto unclear = [](const TimeChange& t) { return t.change == Change::ambiguous; };
+  return std::ranges::any_of(passes, unclear) ? 5 : 0;
+}
+
+Comparison compare_reports(const Report& base, const Report& now, const CompareOptions& options) {
+  Comparison out;
+  const std::vector<Pair> pairs = pair_up(base, now, &out);
+  out.refusal = refusal_of(base, now, pairs, options);
+  if (!out.refusal.empty()) return out;
+  out.byte_equal = !base.kernels.empty() && base.kernels == now.kernels && base.device.name == now.device.name &&
+                   base.device.driver_version == now.device.driver_version;
+  compare_passes(base, now, pairs, options, &out);
+  compare_times_of(base, now, pairs, options, &out);
+  compare_errors_of(pairs, &out);
+  return out;
+}
+
+}  // namespace vsglbench

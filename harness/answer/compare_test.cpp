@@ -1,0 +1,143 @@
+#include "answer/compare.h"
+
+#include <gtest/gtest.h>
+
+#include "answer/made_report.h"
+#include "report/noise.h"
+
+namespace vsglbench {
+namespace {
+
+struct Plant {
+  std::string pass;   // slowed down, in every case
+  double factor = 1;
+  std::string method;  // that gets `bias`
+  double bias = 0;
+};
+
+// Twelve cases as a GPU measures them, 1 % of noise a frame, and an A/A pair.
+Report measured(uint64_t seed, const Plant& plant = {}) {
+  MadeReport made(seed, 0.01, 0.05, 24);
+  for (const char* method : {"fis", "mfis", "cut"}) {
+    for (const int n : {64, 128, 256, 512}) {
+      MadeCase c{.method = method,
+                 .parameters = {{"N", n}},
+                 .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", n / 100.0}},
+                 .error = 1000.0 / n};
+      if (c.passes.contains(plant.pass)) c.passes[plant.pass] *= plant.factor;
+      if (plant.method == method) c.bias = plant.bias;
+      made.add(c);
+    }
+  }
+  CaseResult twin = made.report.cases.front();
+  MadeReport again(seed + 1000, 0.01, 0.05, 24);
+  twin = again.add({.parameters = {{"N", 64}},
+                    .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", 0.64}},
+                    .error = 1000.0 / 64});
+  made.report.aa = {aa_pair(made.report.cases.front(), twin)};
+  return made.report;
+}
+
+template <class T>
+size_t not_null(const std::vector<T>& changes) {
+  return static_cast<size_t>(std::ranges::count_if(
+      changes, [](const T& c) { return c.change != Change::same && c.change != Change::ambiguous; }));
+}
+
+TEST(Compare, AReportIsNoWorseThanItself) {
+  const Report report = measured(1);
+  const Comparison c = compare_reports(report, report);
+  EXPECT_EQ(c.exit_code(), 0) << comparison_text(c, false);
+  EXPECT_EQ(not_null(c.passes) + not_null(c.times) + not_null(c.errors), 0u);
+  EXPECT_EQ(c.cases, 12u);
+}
+
+// 40 runs of the same program: at most one says anything.
+TEST(Compare, FortyNullComparisonsFindNothing) {
+  size_t said = 0;
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    const Comparison c = compare_reports(measured(seed), measured(seed + 100));
+    const size_t found = not_null(c.passes) + not_null(c.times) + not_null(c.errors);
+    said += found > 0;
+    if (found > 0) printf("%s", comparison_text(c, false).c_str());
+  }
+  EXPECT_LE(said, 1u);
+}
+
+TEST(Compare, ASlowerPassIsNamedAndNoOther) {
+  const Comparison c = compare_reports(measured(1), measured(2, {.pass = "importance.rsm", .factor = 1.05}));
+  for (const TimeChange& t : c.passes)
+    EXPECT_EQ(t.change == Change::slower, t.time == "importance.rsm") << t.time << " " << t.ratio.value;
+  EXPECT_EQ(c.exit_code(), 4);
+  EXPECT_NE(comparison_text(c, false).find("slower  pass importance.rsm: +"), std::string::npos);
+  const Comparison back = compare_reports(measured(2, {.pass = "importance.rsm", .factor = 1.05}), measured(1));
+  EXPECT_NE(comparison_text(back, true).find("| faster | pass importance.rsm | -"), std::string::npos);
+}
+
+TEST(Compare, ABiasOfOneMethodIsNamed) {
+  const Comparison c = compare_reports(measured(1), measured(2, {.method = "cut", .bias = 0.02}));
+  size_t worse = 0;
+  for (const ErrorChange& e : c.errors) {
+    const bool planted = e.metric == "bias" && e.case_id.find("/cut/") != std::string::npos;
+    EXPECT_EQ(e.change == Change::worse, planted) << e.case_id << " " << e.metric;
+    worse += planted;
+  }
+  EXPECT_EQ(worse, 4u);
+  EXPECT_EQ(c.exit_code(), 4);
+}
+
+TEST(Compare, RefusesWhatIsNotComparable) {
+  const Report base = measured(1);
+  Report other = base;
+  other.cases[3].accuracy->reference.hash = "ffff";
+  EXPECT_NE(compare_reports(base, other).refusal.find("references differ"), std::string::npos);
+  other = base;
+  other.cases[3].accuracy->smape.formula = "smape-0-100";
+  EXPECT_NE(compare_reports(base, other).refusal.find("two formulas"), std::string::npos);
+  other = base;
+  other.device.name = "another";
+  const Comparison c = compare_reports(base, other);
+  EXPECT_NE(c.refusal.find("devices differ"), std::string::npos);
+  EXPECT_EQ(c.exit_code(), 5);
+  EXPECT_EQ(compare_reports(base, other, {.other_device = true}).refusal, "");
+  EXPECT_NE(compare_reports(base, Report{}).refusal, "");
+}
+
+// Another machine, half as fast in everything: within it, methods stand to each other as before.
+TEST(Compare, RatiosHoldOnAnyMachine) {
+  Report slow = measured(2);
+  slow.device.name = "half as fast";
+  for (CaseResult& c : slow.cases) {
+    std::vector<double> span(c.frame->span.samples.size(), 0);
+    for (PassTiming& p : c.passes) {
+      for (double& ms : p.ms.samples) ms *= 2;
+      p.ms = summarize(p.ms.samples);
+      for (size_t k = 0; k < span.size(); ++k) span[k] += p.ms.samples[k];
+    }
+    c.frame = frame_timing(span, c.passes);
+  }
+  const Comparison same = compare_reports(measured(1), slow, {.ratios = true});
+  EXPECT_EQ(not_null(same.times) + not_null(same.passes), 0u) << comparison_text(same, false);
+  EXPECT_NE(same.exit_code(), 4);
+}
+
+TEST(Compare, ACaseThatFailsNowIsARegression) {
+  const Report base = measured(1);
+  Report now = base;
+  now.cases[5].status = Status::failed;
+  const Comparison c = compare_reports(base, now);
+  EXPECT_EQ(c.exit_code(), 4);
+  EXPECT_EQ(c.broken, std::vector<std::string>{base.cases[5].id});
+}
+
+TEST(Compare, ByteEqualKernelsMakeTimesNoise) {
+  Report base = measured(1), now = measured(2, {.pass = "shade", .factor = 1.3});
+  base.kernels = now.kernels = "00112233";
+  const Comparison c = compare_reports(base, now);
+  EXPECT_TRUE(c.byte_equal);
+  EXPECT_EQ(c.exit_code(), 0);
+  EXPECT_NE(comparison_text(c, false).find("noise"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vsglbench

@@ -1,0 +1,78 @@
+#include "answer/price.h"
+
+#include <gtest/gtest.h>
+
+#include "answer/budget.h"
+#include "answer/made_report.h"
+
+namespace vsglbench {
+namespace {
+
+TEST(Price, IsOfPairsThatDifferInOneKeyAlone) {
+  MadeReport made(1, 0.001, 0);
+  for (const int n : {1024, 64, 256}) {
+    for (const char* shading : {"vsgl16", "vsgl14"}) {
+      made.add({.parameters = {{"N", n}, {"shading", shading}},
+                .passes = {{"gbuffer", 5}, {"importance.rsm", 1}, {"shade", n / 64.0}},
+                .error = (shading[5] == '4' ? 1.0 : 2.0) * 640.0 / n});
+    }
+  }
+  const PointGroup g = point_groups(made.report)[0];
+  std::map<std::string, std::vector<Price>> by_key;
+  for (const Price& p : prices(g)) by_key[p.key].push_back(p);
+  ASSERT_EQ(by_key.size(), 2u);
+  ASSERT_EQ(by_key["N"].size(), 4u);  // 64 → 256 → 1024, twice
+  ASSERT_EQ(by_key["shading"].size(), 3u);
+  for (const Price& p : by_key["N"]) {
+    EXPECT_EQ(std::stoi(p.to), 4 * std::stoi(p.from));
+    EXPECT_EQ(p.pass, "shade");
+    EXPECT_NEAR(p.pass_ms, (std::stoi(p.to) - std::stoi(p.from)) / 64.0, 0.1);
+    EXPECT_EQ(p.error_change, Relation::better);
+    EXPECT_EQ(p.cost_change, Relation::worse);
+    EXPECT_NEAR(p.error_per_ms().value(), -p.error / p.ms, 1e-12);
+    EXPECT_GT(*p.error_per_ms(), 0);
+  }
+  for (const KnobSummary& k : knob_summaries(g, prices(g))) {
+    EXPECT_NEAR(k.error_ratio, k.key == "N" ? 0.25 : 0.5, 1e-9) << k.key;
+  }
+}
+
+// 4 of the RSM's resolution, 3 more of SG lobes, 5 of clustering; then against the other reference.
+TEST(Budget, SwitchesOneApproximationAtATime) {
+  MadeReport made(1, 0, 0);
+  const auto add = [&](const std::string& method, Json parameters, double error) {
+    parameters["rsm"] = 64;
+    made.add({.method = method, .parameters = parameters, .passes = {{"shade", 1}}, .error = error,
+              .reference = parameters.at("visibility") == "none" ? "0" : "1"});
+  };
+  add("all-texels", {{"shading", "exact"}, {"visibility", "none"}}, 4);
+  add("all-texels", {{"shading", "vsgl16"}, {"visibility", "none"}}, 7);
+  add("all-texels", {{"shading", "vsgl14"}, {"visibility", "none"}}, 5);
+  for (const auto& [visibility, error] : std::map<std::string, double>{{"none", 12}, {"exact", 15}, {"ism", 17}})
+    add("cut", {{"shading", "vsgl16"}, {"visibility", visibility}, {"N", 64}}, error);
+  std::map<std::string, double> increments;
+  for (const CaseResult& c : made.report.cases) {
+    if (c.parameters.at("visibility") != "ism") continue;
+    for (const BudgetPart& part : error_budget(made.report, c).parts) increments[part.name] = part.increment.value();
+  }
+  const std::map<std::string, double> expected = {
+      {"RSM resolution", 4}, {"SG lobes", 3}, {"clustering", 5}, {"visibility test", 3}, {"shadow maps", 2}};
+  ASSERT_EQ(increments.size(), expected.size());
+  for (const auto& [name, value] : expected) EXPECT_NEAR(increments[name], value, 1e-9) << name;
+}
+
+TEST(Budget, SaysWhatIsMissing) {
+  MadeReport made(1, 0, 0);
+  made.add({.method = "cut",
+            .parameters = {{"shading", "vsgl16"}, {"visibility", "none"}, {"rsm", 64}},
+            .passes = {{"shade", 1}},
+            .error = 12});
+  const Budget b = error_budget(made.report, made.report.cases[0]);
+  ASSERT_EQ(b.parts.size(), 3u);
+  EXPECT_EQ(b.parts[0].missing, "all-texels, shading exact, visibility none");
+  EXPECT_FALSE(b.parts[1].error);
+  EXPECT_NEAR(b.parts[2].increment.value(), 12, 1e-9);
+}
+
+}  // namespace
+}  // namespace vsglbench
