@@ -12,7 +12,7 @@ namespace vsglbench {
 namespace {
 
 constexpr size_t kMostDominators = 3;  // named of each dominated point
-constexpr size_t kSteps = 5;           // equal times and errors, evenly spaced in the logarithm over the front
+constexpr size_t kSteps = 5;  // equal times and errors, evenly spaced in the logarithm over the front
 
 Json interval(const Interval& i) { return {i.lo, i.hi}; }
 
@@ -35,7 +35,8 @@ Json others_json(const PointGroup& g) {
     for (const size_t f : placed.by) {
       if (by.size() < kMostDominators) by.push_back(id(g, f));
     }
-    out.push_back({{"case", id(g, placed.point)}, {"standing", std::string(name(placed.standing))}, {"by", by}});
+    out.push_back(
+        {{"case", id(g, placed.point)}, {"standing", std::string(name(placed.standing))}, {"by", by}});
   }
   return out;
 }
@@ -62,7 +63,8 @@ std::vector<double> steps(double from, double to) {
 
 // At each step the value of every method whose points stand on both sides of it.
 template <class At>
-Json equal_json(const PointGroup& g, const std::vector<double>& at, const char* axis, const char* value, At read) {
+Json equal_json(const PointGroup& g, const std::vector<double>& at, const char* axis, const char* value,
+                At read) {
   Json out = Json::array();
   for (const double step : at) {
     Json by_method = Json::object();
@@ -81,8 +83,9 @@ Json knobs_json(const PointGroup& g) {
     Json pairs = Json::array();
     for (const Price& p : all) {
       if (p.key != k.key) continue;
-      Json pair = {{"from", p.from}, {"to", p.to},   {"before", id(g, p.before)}, {"after", id(g, p.after)},
-                   {"error", p.error}, {"ms", p.ms}, {"pass", p.pass},            {"pass_ms", p.pass_ms}};
+      Json pair = {{"from", p.from},          {"to", p.to},          {"before", id(g, p.before)},
+                   {"after", id(g, p.after)}, {"error", p.error},    {"ms", p.ms},
+                   {"pass", p.pass},          {"pass_ms", p.pass_ms}};
       if (const auto price = p.error_per_ms()) pair["error_per_ms"] = *price;
       pairs.push_back(std::move(pair));
     }
@@ -130,7 +133,8 @@ Json group_json(const Report& report, const PointGroup& g, const AnswerOptions& 
               {"front", front_points},
               {"others", others_json(g)},
               {"equal_time", equal_json(g, steps(first.ms.value, last.ms.value), "ms", "errors", error_at)},
-              {"equal_error", equal_json(g, steps(first.error.value, last.error.value), "error", "ms", time_to_reach)},
+              {"equal_error",
+               equal_json(g, steps(first.error.value, last.error.value), "error", "ms", time_to_reach)},
               {"knobs", knobs_json(g)},
               {"budgets", budgets}};
   if (g.noise_known) out["time_noise"] = g.noise;
@@ -148,7 +152,8 @@ Json analysis_of(const Report& report, const std::string& time) {
   Json groups = Json::array();
   for (const std::string& metric : analysed_metrics()) {
     const AnswerOptions options{metric, time};
-    for (const PointGroup& g : point_groups(report, options)) groups.push_back(group_json(report, g, options));
+    for (const PointGroup& g : point_groups(report, options))
+      groups.push_back(group_json(report, g, options));
   }
   return {{"time", time}, {"groups", groups}};
 }

@@ -1,5 +1,5 @@
-// `analysis` of a report: per scene and metric the front, who is dominated by whom, errors at equal time, times at
-// equal error, prices of knobs, and the error budget of the front's points.
+// `analysis` of a report: per scene and metric the front, who is dominated by whom, errors at equal time,
+// times at equal error, prices of knobs, and the error budget of the front's points.
 #pragma once
 
 #include "answer/point.h"

@@ -46,8 +46,8 @@ class Search {
   template <class F>
   const CaseResult* find(F matches) const {
     for (const CaseResult& c : report_.cases) {
-      if (c.status == Status::ok && c.scene == case_.scene && c.accuracy &&
-          metric_of(*c.accuracy, metric_) && matches(c))
+      if (c.status == Status::ok && c.scene == case_.scene && c.accuracy && metric_of(*c.accuracy, metric_) &&
+          matches(c))
         return &c;
     }
     return nullptr;

@@ -1,5 +1,5 @@
-// Cases are paired by id, seeds by number; times of one case are two independent samples, those of one pass over all
-// cases are pairs of medians.
+// Cases are paired by id, seeds by number; times of one case are two independent samples, those of one pass
+// over all cases are pairs of medians.
 #include "answer/compare.h"
 
 #include <algorithm>
@@ -54,7 +54,8 @@ Change time_change(const Ratio& r, double noise, double superiority) {
   return r.ci95.lo >= below && r.ci95.hi <= above ? Change::same : Change::ambiguous;
 }
 
-double larger_noise(const Report& base, const Report& now, const std::string& scene, const std::string& time) {
+double larger_noise(const Report& base, const Report& now, const std::string& scene,
+                    const std::string& time) {
   double noise = 0;
   for (const Report* report : {&base, &now}) {
     if (const TimeNoise* n = noise_of(*report, scene, time)) noise = std::max(noise, n->noise_floor);
@@ -116,14 +117,14 @@ std::string refusal_of(const Report& base, const Report& now, const std::vector<
                        const CompareOptions& options) {
   if (pairs.empty()) return "no case is in both reports and ok in both";
   if (base.device.name != now.device.name && !options.other_device && !options.ratios) {
-    return fmt::format("the devices differ: '{}' and '{}'; --ratios compares what holds on both", base.device.name,
-                       now.device.name);
+    return fmt::format("the devices differ: '{}' and '{}'; --ratios compares what holds on both",
+                       base.device.name, now.device.name);
   }
   for (const Pair& p : pairs) {
     if (!p.base->accuracy || !p.now->accuracy) continue;
     if (p.base->accuracy->reference.hash != p.now->accuracy->reference.hash) {
-      return fmt::format("{}: the references differ ({} and {}), so the errors are of other things", p.base->id,
-                         p.base->accuracy->reference.hash, p.now->accuracy->reference.hash);
+      return fmt::format("{}: the references differ ({} and {}), so the errors are of other things",
+                         p.base->id, p.base->accuracy->reference.hash, p.now->accuracy->reference.hash);
     }
     for (const MetricField& f : kFields) {
       const MetricResult &b = (*p.base->accuracy).*f.result, &n = (*p.now->accuracy).*f.result;
@@ -221,8 +222,8 @@ std::vector<double> paired_logs(const Pair& p, Metric metric) {
   return logs;
 }
 
-// Student's interval of the mean log ratio; a single seed has none, and its ratio is taken for exact: images are
-// the same to the bit where nothing changed.
+// Student's interval of the mean log ratio; a single seed has none, and its ratio is taken for exact: images
+// are the same to the bit where nothing changed.
 Ratio error_ratio(const std::vector<double>& logs) {
   const MeanEstimate m = mean_ci95(logs);
   return {std::exp(m.mean), {std::exp(m.ci95.lo), std::exp(m.ci95.hi)}};
@@ -275,7 +276,8 @@ Comparison compare_reports(const Report& base, const Report& now, const CompareO
   const std::vector<Pair> pairs = pair_up(base, now, &out);
   out.refusal = refusal_of(base, now, pairs, options);
   if (!out.refusal.empty()) return out;
-  out.byte_equal = !base.kernels.empty() && base.kernels == now.kernels && base.device.name == now.device.name &&
+  out.byte_equal = !base.kernels.empty() && base.kernels == now.kernels &&
+                   base.device.name == now.device.name &&
                    base.device.driver_version == now.device.driver_version;
   compare_passes(base, now, pairs, options, &out);
   compare_times_of(base, now, pairs, options, &out);

@@ -16,8 +16,8 @@ std::string_view name(Change change);
 bool is_regression(Change change);
 
 struct CompareOptions {
-  // Times and errors of other devices are of other things; with this their ratios between cases are compared instead
-  // of times: each case's time over that of its scene's first case, within each report.
+  // Times and errors of other devices are of other things; with this their ratios between cases are compared
+  // instead of times: each case's time over that of its scene's first case, within each report.
   bool ratios = false;
   bool other_device = false;  // compare absolute times of two devices all the same
 };
@@ -28,7 +28,8 @@ struct TimeChange {
   std::string time;            // a pass, or a name of report/noise.h
   Ratio ratio;                 // of medians, bootstrap; over cases, of the mean of log ratios, a pair a case
   double noise = 0;            // the larger A/A floor of the two reports
-  double superiority = 0.5;    // P(a time of one > one of the other), of the slower; over cases: the share of pairs
+  double superiority =
+      0.5;  // P(a time of one > one of the other), of the slower; over cases: the share of pairs
   Change change = Change::same;
 };
 
@@ -42,14 +43,15 @@ struct ErrorChange {
 
 struct Comparison {
   std::string refusal;  // why nothing was compared; empty: it was
-  // Kernels and plugins are byte for byte those of the base, and the driver too: whatever differs in time is noise.
+  // Kernels and plugins are byte for byte those of the base, and the driver too: whatever differs in time is
+  // noise.
   bool byte_equal = false;
-  size_t cases = 0;                            // in both, ok in both
-  std::vector<std::string> missing, added;     // ids of the base alone, of the new alone
-  std::vector<std::string> broken, mended;     // ok before and not now, and the reverse
-  std::vector<TimeChange> passes;              // over all cases, one a pass; by name
-  std::vector<TimeChange> times;               // method time of every case
-  std::vector<ErrorChange> errors;             // every metric of every case
+  size_t cases = 0;                         // in both, ok in both
+  std::vector<std::string> missing, added;  // ids of the base alone, of the new alone
+  std::vector<std::string> broken, mended;  // ok before and not now, and the reverse
+  std::vector<TimeChange> passes;           // over all cases, one a pass; by name
+  std::vector<TimeChange> times;            // method time of every case
+  std::vector<ErrorChange> errors;          // every metric of every case
   // 0: no regression; 4: one; 5: refused, or no regression but a pass is ambiguous.
   int exit_code() const;
 };

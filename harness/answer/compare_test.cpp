@@ -9,7 +9,7 @@ namespace vsglbench {
 namespace {
 
 struct Plant {
-  std::string pass;   // slowed down, in every case
+  std::string pass;  // slowed down, in every case
   double factor = 1;
   std::string method;  // that gets `bias`
   double bias = 0;
@@ -22,7 +22,10 @@ Report measured(uint64_t seed, const Plant& plant = {}) {
     for (const int n : {64, 128, 256, 512}) {
       MadeCase c{.method = method,
                  .parameters = {{"N", n}},
-                 .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", n / 100.0}},
+                 .passes = {{"gbuffer", 2},
+                            {"generate.rsm.sample", 0.3},
+                            {"importance.rsm", 1},
+                            {"shade", n / 100.0}},
                  .error = 1000.0 / n};
       if (c.passes.contains(plant.pass)) c.passes[plant.pass] *= plant.factor;
       if (plant.method == method) c.bias = plant.bias;
@@ -31,9 +34,10 @@ Report measured(uint64_t seed, const Plant& plant = {}) {
   }
   CaseResult twin = made.report.cases.front();
   MadeReport again(seed + 1000, 0.01, 0.05, 24);
-  twin = again.add({.parameters = {{"N", 64}},
-                    .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", 0.64}},
-                    .error = 1000.0 / 64});
+  twin = again.add(
+      {.parameters = {{"N", 64}},
+       .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", 0.64}},
+       .error = 1000.0 / 64});
   made.report.aa = {aa_pair(made.report.cases.front(), twin)};
   return made.report;
 }
@@ -70,7 +74,8 @@ TEST(Compare, ASlowerPassIsNamedAndNoOther) {
     EXPECT_EQ(t.change == Change::slower, t.time == "importance.rsm") << t.time << " " << t.ratio.value;
   EXPECT_EQ(c.exit_code(), 4);
   EXPECT_NE(comparison_text(c, false).find("slower  pass importance.rsm: +"), std::string::npos);
-  const Comparison back = compare_reports(measured(2, {.pass = "importance.rsm", .factor = 1.05}), measured(1));
+  const Comparison back =
+      compare_reports(measured(2, {.pass = "importance.rsm", .factor = 1.05}), measured(1));
   EXPECT_NE(comparison_text(back, true).find("| faster | pass importance.rsm | -"), std::string::npos);
 }
 

@@ -39,8 +39,8 @@ void add_lines(const std::vector<T>& changes, std::vector<Line>* worse, std::vec
 template <class T>
 std::string counts(const std::vector<T>& changes) {
   std::string out;
-  for (const Change c : {Change::slower, Change::faster, Change::worse, Change::better, Change::same,
-                         Change::ambiguous}) {
+  for (const Change c :
+       {Change::slower, Change::faster, Change::worse, Change::better, Change::same, Change::ambiguous}) {
     const auto n = std::ranges::count(changes, c, &T::change);
     if (n > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", n, name(c));
   }
@@ -59,7 +59,8 @@ void print_ids(const char* what, const std::vector<std::string>& ids, std::strin
   if (ids.empty()) return;
   constexpr size_t kShown = 5;
   const size_t shown = std::min(ids.size(), kShown);
-  *out += fmt::format("{}: {}{}\n", what, fmt::join(ids.begin(), ids.begin() + static_cast<ptrdiff_t>(shown), ", "),
+  *out += fmt::format("{}: {}{}\n", what,
+                      fmt::join(ids.begin(), ids.begin() + static_cast<ptrdiff_t>(shown), ", "),
                       ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
 }
 
@@ -80,8 +81,8 @@ std::string comparison_text(const Comparison& c, bool markdown) {
   print_ids("ok now", c.mended, &out);
   print_ids("not in the new report", c.missing, &out);
   print_ids("new", c.added, &out);
-  out += fmt::format("{} cases; passes over all of them: {}; times: {}; errors: {}\n", c.cases, counts(c.passes),
-                     counts(c.times), counts(c.errors));
+  out += fmt::format("{} cases; passes over all of them: {}; times: {}; errors: {}\n", c.cases,
+                     counts(c.passes), counts(c.times), counts(c.errors));
   if (c.byte_equal)
     out += "kernels, plugins and driver are byte for byte those of the base: differences of time are noise\n";
   return out;

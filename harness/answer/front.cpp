@@ -38,9 +38,8 @@ std::string_view name(Standing standing) {
 
 std::vector<size_t> staircase(const PointGroup& group, const std::vector<size_t>& points) {
   std::vector<size_t> order = points;
-  std::ranges::stable_sort(order, {}, [&](size_t i) {
-    return std::pair(group.points[i].ms.value, group.points[i].error.value);
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](size_t i) { return std::pair(group.points[i].ms.value, group.points[i].error.value); });
   std::vector<size_t> stairs;
   double least = std::numeric_limits<double>::infinity();
   for (const size_t i : order) {

@@ -11,8 +11,8 @@ namespace vsglbench {
 
 // What a point is to the front of its group.
 //   front      no other point has both less time and less error, by their estimates
-//   dominated  a point of the front is better on one axis and better or the same on the other, beyond the intervals
-//   ambiguous  a point of the front is better by the estimates, but the intervals can't tell
+//   dominated  a point of the front is better on one axis and better or the same on the other, beyond the
+//   intervals ambiguous  a point of the front is better by the estimates, but the intervals can't tell
 enum class Standing { front, dominated, ambiguous };
 std::string_view name(Standing standing);
 
@@ -29,8 +29,8 @@ std::vector<size_t> front_of(const PointGroup& group);
 // The lower left staircase of some of the group's points, given by index.
 std::vector<size_t> staircase(const PointGroup& group, const std::vector<size_t>& points);
 
-// Straight in log-log between neighbours of a staircase; nothing outside of it: no point is made up that was not
-// measured on both sides.
+// Straight in log-log between neighbours of a staircase; nothing outside of it: no point is made up that was
+// not measured on both sides.
 std::optional<double> error_at(const PointGroup& group, const std::vector<size_t>& stairs, double ms);
 std::optional<double> time_to_reach(const PointGroup& group, const std::vector<size_t>& stairs, double error);
 

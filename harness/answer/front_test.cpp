@@ -8,7 +8,10 @@ namespace vsglbench {
 namespace {
 
 MadeCase at(double ms, double error, const std::string& method = "fis", int n = 0) {
-  return {.method = method, .parameters = {{"N", n}, {"visibility", "none"}}, .passes = {{"shade", ms}}, .error = error};
+  return {.method = method,
+          .parameters = {{"N", n}, {"visibility", "none"}},
+          .passes = {{"shade", ms}},
+          .error = error};
 }
 
 PointGroup group_of(const Report& report) {
@@ -70,7 +73,8 @@ TEST(Front, PairedSeedsTellApartWhatIntervalsDoNot) {
   made.add(at(10, 10, "a"));
   made.add(at(10, 11, "b"));
   const PointGroup g = group_of(made.report);
-  const Point &a = g.points[g.points[0].result->method == "a" ? 0 : 1], &b = g.points[&a == &g.points[0] ? 1 : 0];
+  const Point &a = g.points[g.points[0].result->method == "a" ? 0 : 1],
+              &b = g.points[&a == &g.points[0] ? 1 : 0];
   EXPECT_LT(b.error.ci95.lo, a.error.ci95.hi);
   EXPECT_EQ(compare_errors(a, b), Relation::better);
   EXPECT_EQ(compare_errors(b, a), Relation::worse);

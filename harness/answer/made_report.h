@@ -64,7 +64,9 @@ class MadeReport {
   Report report;
 
  private:
-  double scatter(double share) { return share > 0 ? std::exp(std::normal_distribution<>(0, share)(random_)) : 1; }
+  double scatter(double share) {
+    return share > 0 ? std::exp(std::normal_distribution<>(0, share)(random_)) : 1;
+  }
   // The same for every case: a seed moves all methods alike.
   double seed_scatter(uint64_t seed) const {
     std::mt19937_64 of_seed(seed + 17);

@@ -109,8 +109,13 @@ std::vector<PointGroup> point_groups(const Report& report, const AnswerOptions& 
     const ReferenceInfo& reference = c.accuracy->reference;
     const auto [at, added] = known.try_emplace({c.scene, reference.hash}, groups.size());
     if (added) {
-      PointGroup g{c.scene, reference.hash, c.parameters.value("visibility", "") == "none" ? "none" : "full",
-                   {},      0,              false, 0};
+      PointGroup g{c.scene,
+                   reference.hash,
+                   c.parameters.value("visibility", "") == "none" ? "none" : "full",
+                   {},
+                   0,
+                   false,
+                   0};
       if (const TimeNoise* noise = noise_of(report, c.scene, options.time)) {
         g.noise = noise->noise_floor;
         g.noise_known = true;

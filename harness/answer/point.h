@@ -16,8 +16,9 @@ struct Estimate {
   Interval ci95;
 };
 
-// What an analysis counts. `metric` is a formula's name (image/metrics.h; not bias, which has a sign). `time` is a
-// name of report/noise.h; by default what a method answers for, all passes but the raster of the two halves.
+// What an analysis counts. `metric` is a formula's name (image/metrics.h; not bias, which has a sign). `time`
+// is a name of report/noise.h; by default what a method answers for, all passes but the raster of the two
+// halves.
 struct AnswerOptions {
   std::string metric = "smape";
   std::string time = "method";
@@ -25,7 +26,7 @@ struct AnswerOptions {
 
 struct Point {
   const CaseResult* result = nullptr;
-  Estimate error;             // in the metric's unit, mean over seeds; the median and range where seeds are heavy-tailed
+  Estimate error;  // in the metric's unit, mean over seeds; the median and range where seeds are heavy-tailed
   std::vector<double> seeds;  // the metric of each seed, in the report's order
   Estimate ms;                // median over frames
 };
@@ -37,11 +38,11 @@ struct PointGroup {
   std::vector<Point> points;     // by time
   double noise = 0;              // of this time in this scene, relative: the A/A pair's floor
   bool noise_known = false;      // whether the scene has an A/A pair with this time
-  double error_floor = 0;        // what an exact image would show beside the reference's own noise; 0: not known
+  double error_floor = 0;  // what an exact image would show beside the reference's own noise; 0: not known
 };
 
-// The groups of a report, in its order. Cases without the time or the metric are left out. Throws Error(usage) for a
-// metric or time that is not there.
+// The groups of a report, in its order. Cases without the time or the metric are left out. Throws
+// Error(usage) for a metric or time that is not there.
 std::vector<PointGroup> point_groups(const Report& report, const AnswerOptions& options = {});
 
 // The metric of a case over seeds; null where it has none.
@@ -54,10 +55,10 @@ std::string metric_unit(const std::string& metric);
 // What one point is to another on one axis. Ratios within `margin` of 1 are not worth a word.
 enum class Relation { better, worse, same, ambiguous };
 
-// `a` beside `b`: better where it is smaller beyond margin and intervals. Errors are compared seed by seed where both
-// have the same seeds: Student's interval of the mean log ratio, which is far narrower than the two intervals.
+// `a` beside `b`: better where it is smaller beyond margin and intervals. Errors are compared seed by seed
+// where both have the same seeds: Student's interval of the mean log ratio, which is far narrower than the
+// two intervals.
 Relation compare_errors(const Point& a, const Point& b, double margin = kSmallestEffect);
 Relation compare_costs(const Point& a, const Point& b, double margin);
-
 
 }  // namespace vsglbench

@@ -13,7 +13,8 @@ std::string text_of(const Json& value) { return value.is_string() ? value.get<st
 // Numbers by size, words in the report's order, in which they come.
 void sort_values(std::vector<std::pair<Json, size_t>>* values) {
   std::ranges::stable_sort(*values, [](const auto& a, const auto& b) {
-    return a.first.is_number() && b.first.is_number() && a.first.template get<double>() < b.first.template get<double>();
+    return a.first.is_number() && b.first.is_number() &&
+           a.first.template get<double>() < b.first.template get<double>();
   });
 }
 
@@ -85,7 +86,8 @@ std::vector<Price> prices(const PointGroup& group) {
   for (auto& [key, others] : families) {
     const size_t first = out.size();
     for (auto& [rest, values] : others) {
-      std::ranges::sort(values, {}, [&](const auto& v) { return group.points[v.second].result; });  // the report's
+      std::ranges::sort(values, {},
+                        [&](const auto& v) { return group.points[v.second].result; });  // the report's
       sort_values(&values);
       const bool numbers = values.front().first.is_number();
       for (size_t k = 1; k < values.size(); ++k) {

@@ -42,18 +42,23 @@ TEST(Budget, SwitchesOneApproximationAtATime) {
   MadeReport made(1, 0, 0);
   const auto add = [&](const std::string& method, Json parameters, double error) {
     parameters["rsm"] = 64;
-    made.add({.method = method, .parameters = parameters, .passes = {{"shade", 1}}, .error = error,
+    made.add({.method = method,
+              .parameters = parameters,
+              .passes = {{"shade", 1}},
+              .error = error,
               .reference = parameters.at("visibility") == "none" ? "0" : "1"});
   };
   add("all-texels", {{"shading", "exact"}, {"visibility", "none"}}, 4);
   add("all-texels", {{"shading", "vsgl16"}, {"visibility", "none"}}, 7);
   add("all-texels", {{"shading", "vsgl14"}, {"visibility", "none"}}, 5);
-  for (const auto& [visibility, error] : std::map<std::string, double>{{"none", 12}, {"exact", 15}, {"ism", 17}})
+  for (const auto& [visibility, error] :
+       std::map<std::string, double>{{"none", 12}, {"exact", 15}, {"ism", 17}})
     add("cut", {{"shading", "vsgl16"}, {"visibility", visibility}, {"N", 64}}, error);
   std::map<std::string, double> increments;
   for (const CaseResult& c : made.report.cases) {
     if (c.parameters.at("visibility") != "ism") continue;
-    for (const BudgetPart& part : error_budget(made.report, c).parts) increments[part.name] = part.increment.value();
+    for (const BudgetPart& part : error_budget(made.report, c).parts)
+      increments[part.name] = part.increment.value();
   }
   const std::map<std::string, double> expected = {
       {"RSM resolution", 4}, {"SG lobes", 3}, {"clustering", 5}, {"visibility test", 3}, {"shadow maps", 2}};

@@ -21,7 +21,8 @@ double number_in(const std::string& text, const std::string& whole, const char* 
     value = std::stod(text, &used);
   } catch (const std::exception&) {
   }
-  if (used == 0 || text.find_first_not_of(" ", used) != std::string::npos || !(value > 0) || !std::isfinite(value))
+  if (used == 0 || text.find_first_not_of(" ", used) != std::string::npos || !(value > 0) ||
+      !std::isfinite(value))
     throw fail(ErrorKind::usage, "'{}' is no bound; give one like {}", whole, like);
   return value;
 }
@@ -88,17 +89,16 @@ class Answer {
   std::string sentence() const {
     if (fitting_.empty()) return fmt::format("{}: no case has {}; {}", where(), asked(), nearest());
     const Point& best = group_.points[fitting_.front()];
-    std::string out = fmt::format(
-        "{}: for {}, take {}: {} {} in {} ms ({}){}.", where(), asked(), label(fitting_.front()), metric_title(metric()),
-        with_interval(best.error, metric_unit(metric())), with_interval(best.ms, ""),
-        time_words(question_.options.time), rivals());
+    std::string out =
+        fmt::format("{}: for {}, take {}: {} {} in {} ms ({}){}.", where(), asked(), label(fitting_.front()),
+                    metric_title(metric()), with_interval(best.error, metric_unit(metric())),
+                    with_interval(best.ms, ""), time_words(question_.options.time), rivals());
     return out + " " + halving(best);
   }
 
   std::string nearest() const {
-    const auto closest = std::ranges::min_element(group_.points, {}, [&](const Point& p) {
-      return by_error() ? p.error.value : p.ms.value;
-    });
+    const auto closest = std::ranges::min_element(
+        group_.points, {}, [&](const Point& p) { return by_error() ? p.error.value : p.ms.value; });
     return fmt::format("the nearest is {} with {} in {} ms.", names_.label(*closest->result),
                        error_text(closest->error.value), number(closest->ms.value));
   }
@@ -122,8 +122,8 @@ class Answer {
     const double half = 0.5 * best.error.value;
     const auto ms = time_to_reach(group_, front_of(group_), half);
     if (ms) {
-      return fmt::format("Halving that error, to {}, takes {} ms, {:.2g} times as long.", error_text(half), number(*ms),
-                         *ms / best.ms.value);
+      return fmt::format("Halving that error, to {}, takes {} ms, {:.2g} times as long.", error_text(half),
+                         number(*ms), *ms / best.ms.value);
     }
     const size_t last = front_of(group_).back();
     const Point& least = group_.points[last];
@@ -171,8 +171,8 @@ std::vector<const PointGroup*> groups_asked(const std::vector<PointGroup>& group
   std::set<std::string> scenes;
   for (const PointGroup& g : groups) scenes.insert(g.scene);
   if (!question.scene.empty() && !scenes.contains(question.scene)) {
-    throw fail(ErrorKind::usage, "the report has no scene '{}' with errors and times; did you mean '{}'?", question.scene,
-               nearest_name(question.scene, {scenes.begin(), scenes.end()}));
+    throw fail(ErrorKind::usage, "the report has no scene '{}' with errors and times; did you mean '{}'?",
+               question.scene, nearest_name(question.scene, {scenes.begin(), scenes.end()}));
   }
   for (const std::string& scene : scenes) {
     if (!question.scene.empty() && scene != question.scene) continue;
@@ -212,7 +212,8 @@ void ask_time(const std::string& text, Question* question) {
 std::string reply(const Report& report, const Question& question) {
   const std::vector<PointGroup> groups = point_groups(report, question.options);
   if (groups.empty())
-    throw fail(ErrorKind::usage, "no case of this report has both {} and a time; run a config that measures frames",
+    throw fail(ErrorKind::usage,
+               "no case of this report has both {} and a time; run a config that measures frames",
                metric_title(question.options.metric));
   std::string out;
   for (const PointGroup* group : groups_asked(groups, question)) {

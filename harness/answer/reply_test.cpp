@@ -53,9 +53,11 @@ TEST(Reply, SaysWhatComesNearestWhereNothingFits) {
 
 TEST(Reply, RefusesWhatIsNoQuestion) {
   Question q;
-  for (const char* bad : {"5", "smape=5", "smape<=", "smape<=-1", "smape<=five", "smap<=5", "bias<=1", "<=5", "smape<=5x"})
+  for (const char* bad :
+       {"5", "smape=5", "smape<=", "smape<=-1", "smape<=five", "smap<=5", "bias<=1", "<=5", "smape<=5x"})
     EXPECT_THROW(ask_error(bad, &q), Error) << bad;
-  for (const char* bad : {"", "ms", "-2ms", "2s", "nan", "inf", "0"}) EXPECT_THROW(ask_time(bad, &q), Error) << bad;
+  for (const char* bad : {"", "ms", "-2ms", "2s", "nan", "inf", "0"})
+    EXPECT_THROW(ask_time(bad, &q), Error) << bad;
   ask_time("2 ms", &q);
   EXPECT_DOUBLE_EQ(*q.ms, 2);
   q.scene = "boxx";

@@ -1,5 +1,7 @@
 #include "measure/stopping.h"
 
+#include <bit>
+
 #include "measure/statistics.h"
 
 namespace vsglbench {
@@ -16,10 +18,12 @@ std::string_view name(StopReason reason) {
   return "";
 }
 
+bool looks_at(size_t samples) { return samples >= 8 && std::has_single_bit(samples); }
+
 std::optional<StopReason> should_stop(const StoppingRule& rule, std::span<const double> samples,
                                       double elapsed_s) {
   if (samples.empty()) return std::nullopt;
-  if (samples.size() >= rule.min_samples &&
+  if (looks_at(samples.size()) && samples.size() >= rule.min_samples &&
       bootstrap_median_ci95(samples).width() < rule.relative_width * median(samples)) {
     return StopReason::converged;
   }

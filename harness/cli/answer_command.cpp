@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "answer/reply.h"
+#include "cli/command.h"
+#include "report/noise.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+struct AnswerCommand {
+  fs::path report;
+  Question question;
+  std::string error, time;
+};
+
+void print(const AnswerCommand& command) {
+  Question question = command.question;
+  if (command.error.empty() == command.time.empty())
+    throw fail(ErrorKind::usage, "ask for one of --error smape<=5 and --time 2ms");
+  if (!command.error.empty()) ask_error(command.error, &question);
+  if (!command.time.empty()) ask_time(command.time, &question);
+  fmt::print("{}", reply(read_report_at(command.report), question));
+}
+
+}  // namespace
+
+void add_answer_command(CLI::App& app) {
+  auto options = std::make_shared<AnswerCommand>();
+  CLI::App* command =
+      app.add_subcommand("answer", "which method and settings reach an error, or are best within a time");
+  command->footer(
+      "One sentence and a small table a scene: the cheapest case that reaches the error (the best within the time), "
+      "what\nhalving the error costs, and every method's own best. Times are medians, errors means over seeds, with 95 % "
+      "intervals.\nWhat halving costs is read off the front in log-log; nothing is extrapolated.\n"
+      "Example: vsglbench answer reports/front-lavapipe --scene cornell --error 'smape<=10'\n"
+      "         vsglbench answer reports/front-lavapipe --time 50ms --metric rmse");
+  command->add_option("report", options->report, "report.json, or its folder")->required();
+  command->add_option("--scene", options->question.scene, "one scene (default: all)");
+  command->add_option("--error", options->error, "a bound such as smape<=5, rmse<=0.01, flip<=0.1");
+  command->add_option("--time", options->time, "a bound such as 2ms");
+  command->add_option("--metric", options->question.options.metric,
+                      "with --time: the error to make small (default smape)");
+  command->add_option("--sum", options->question.options.time,
+                      fmt::format("which time counts: {} (default method: all passes but the raster of the halves)",
+                                  fmt::join(time_columns(), ", ")));
+  command
+      ->add_option("--visibility", options->question.visibility,
+                   "none or full: against which reference (default: full where there is one)")
+      ->check(CLI::IsMember({"none", "full"}));
+  command->callback([=] { print(*options); });
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include "answer/compare.h"
+#include "cli/command.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+struct CompareCommand {
+  fs::path base, now;
+  CompareOptions options;
+  bool markdown = false;
+};
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, CommandResult* result) {
+  auto options = std::make_shared<CompareCommand>();
+  CLI::App* command = app.add_subcommand("compare", "what became faster, slower, better or worse between two reports");
+  command->footer(
+      "Times: ratios of medians with bootstrap intervals, per case and, a pair a case, per pass. A change is one "
+      "beyond\nits interval, the A/A noise of both reports, 0.5 %, and a probability of superiority of 0.8. Errors: seeds "
+      "are pairs.\nRefused: other formulas, other references, other devices (unless --ratios or --other-device).\n"
+      "Exit codes: 0 nothing is worse, 4 something is, 5 refused, or a pass can't be told.\n"
+      "Example: vsglbench compare reports/front-lavapipe reports/out/front");
+  command->add_option("base", options->base, "report.json, or its folder")->required();
+  command->add_option("new", options->now, "report.json, or its folder")->required();
+  command->add_flag("--ratios", options->options.ratios,
+                    "compare each case's time over that of its scene's first case, which holds on any machine");
+  command->add_flag("--other-device", options->options.other_device, "compare times of two devices all the same");
+  command->add_flag("--markdown", options->markdown, "as Markdown, for a pull request");
+  command->callback([=] {
+    const Comparison c =
+        compare_reports(read_report_at(options->base), read_report_at(options->now), options->options);
+    fmt::print("{}", comparison_text(c, options->markdown));
+    result->exit_code = c.exit_code();
+  });
+}
+
+}  // namespace vsglbench
