@@ -162,9 +162,7 @@ class SchemaChecker {
       } else if (keyword == "oneOf" || keyword == "anyOf") {
         check_alternatives(v, rule, at);
       } else if (v.is_object() && keyword == "required") {
-        for (const auto& k : rule) {
-          if (!v.contains(k.get<std::string>())) report_(at, fmt::format("lacks '{}'", k.get<std::string>()));
-        }
+        for (const auto& k : rule) check_required(v, schema, k.get<std::string>(), at);
       } else if (v.is_number() && is_bound(keyword)) {
         check_bound(v.get<double>(), keyword, rule.get<double>(), at);
       } else if (keyword == "minItems" || keyword == "minProperties" || keyword == "maxItems") {
@@ -204,6 +202,18 @@ class SchemaChecker {
     for (const auto& t : types) wanted += (wanted.empty() ? "" : " or ") + t.get<std::string>();
     report_(at, fmt::format("is {} but must be {}", v.is_object() || v.is_array() ? v.type_name() : v.dump(),
                             wanted));
+  }
+  // What lacks a key often has it misspelt.
+  void check_required(const Json& v, const Json& schema, const std::string& wanted, const std::string& at) {
+    if (v.contains(wanted)) return;
+    const Json properties = schema.value("properties", Json::object());
+    for (const auto& [key, unused] : v.items()) {
+      if (properties.contains(key) || edit_distance(key, wanted) > std::max<size_t>(2, key.size() / 2))
+        continue;
+      return report_(at + "/" + pointer_token(key),
+                     fmt::format("unknown key '{}'; did you mean '{}'?", key, wanted));
+    }
+    report_(at, fmt::format("lacks '{}'", wanted));
   }
   void check_enum(const Json& v, const Json& allowed, const std::string& at) {
     std::vector<std::string> names;

@@ -48,14 +48,18 @@ TEST_F(CliTest, AMissingAssetIsSkipped) {
   Json scene = square_scene("far/away.gltf");
   scene["get_it"] = "https://example.org/away";
   use_scene(scene, "");
+  config_["N"] = {8, 16};
   const Finished f = run_config();
   EXPECT_EQ(f.code, 0) << f.err;
   const Report r = report();
-  EXPECT_EQ(r.cases.at(0).status, Status::skipped);
+  ASSERT_EQ(r.cases.size(), 2u);
+  for (const CaseResult& c : r.cases) EXPECT_EQ(c.status, Status::skipped);
   for (const char* part : {"far/away.gltf", "https://example.org/away", "--assets"}) {
-    EXPECT_TRUE(contains(r.cases[0].error->message, part));
+    EXPECT_TRUE(contains(r.cases[1].error->message, part));
     EXPECT_TRUE(contains(f.out, part));
+    EXPECT_EQ(f.out.find(part), f.out.rfind(part)) << "told twice: " << f.out;
   }
+  EXPECT_TRUE(contains(f.out, "skipped: as said above"));
 }
 
 // --- lights and cameras ---

@@ -172,7 +172,7 @@ FrameTimes Frame::render(uint32_t seed, bool watched) {
   generate_dispatches_ = 0;
   restart_check();
   memory_fault_.clear();
-  for (uint32_t i = 0; i < parameters_.iterations; ++i) render_iteration(seed, i, watched, &times);
+  for (uint32_t i = 0; i < parameters_.progressive; ++i) render_iteration(seed, i, watched, &times);
   times.generate_dispatches = generate_dispatches_;
   return times;
 }
@@ -348,7 +348,7 @@ void Frame::shade(Recorder& r, uint32_t seed, uint32_t iteration) {
   ShadePush push{.emitter = camera_, .words = groups_for(pixels, 32), .map_size = parameters_.ism.size};
   push.random = static_cast<uint32_t>(mix(uint64_t(seed) << 32 | iteration));
   push.radius2_scale = std::pow(4.0f / 9.0f, static_cast<float>(iteration));
-  push.weight = 1.0f / static_cast<float>(parameters_.iterations);
+  push.weight = 1.0f / static_cast<float>(parameters_.progressive);
   push.alpha = parameters_.bias_reduction;
 
   const auto g = gbuffer_->pointers();

@@ -36,9 +36,9 @@ struct FrameParameters {
   Shading shading;           // of VSGLs
   float bias_reduction = 0;  // α of [VSGL14 §3.3], of VSGLs; 0: none
   Importance importance = Importance::own;
-  // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
+  // Images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
-  uint32_t iterations = 1;
+  uint32_t progressive = 1;
   // Every pass is submitted by itself and what it wrote is looked at: see Frame::bad_output(). Times of such
   // a frame are not comparable.
   bool check_passes = false;

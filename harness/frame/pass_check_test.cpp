@@ -204,7 +204,7 @@ TEST(PassCheckFrame, EveryWayToShadeAndWeighIsSound) {
     FrameParameters p = checked();
     p.importance = importance;
     p.bias_reduction = 0.5f;
-    p.iterations = 2;
+    p.progressive = 2;
     EXPECT_EQ(found(*session.frame(mfis, p)), "");
   }
 }

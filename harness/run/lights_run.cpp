@@ -5,7 +5,6 @@
 
 #include "base/file.h"
 #include "base/log.h"
-#include "base/nearest.h"
 #include "base/progress.h"
 #include "lights/light_pictures.h"
 #include "method/registry.h"
@@ -20,23 +19,6 @@ namespace fs = std::filesystem;
 
 namespace vsglbench {
 namespace {
-
-const Case& select_case(const std::vector<Case>& cases, const std::string& wanted) {
-  std::vector<const Case*> matches;
-  std::vector<std::string> ids;
-  for (const Case& c : cases) {
-    if (c.id == wanted) return c;
-    if (c.id.find(wanted) != std::string::npos) matches.push_back(&c);
-    ids.push_back(c.id);
-  }
-  if (matches.size() == 1) return *matches.front();
-  if (matches.empty()) {
-    throw fail(ErrorKind::usage, "no case '{}' among the {} of this config; the nearest is '{}'", wanted,
-               cases.size(), nearest_name(wanted, ids));
-  }
-  throw fail(ErrorKind::usage, "'{}' is part of {} cases' ids, '{}' and '{}' for two; give more of one",
-             wanted, matches.size(), matches[0]->id, matches[1]->id);
-}
 
 // Visibility has no say in where the lights are.
 FrameParameters without_visibility(FrameParameters parameters) {
@@ -191,17 +173,6 @@ std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed
 
 }  // namespace
 
-std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted) {
-  if (wanted.empty()) return cases;
-  std::vector<const Case*> named;
-  for (const auto& name : wanted) named.push_back(&select_case(cases, name));
-  std::vector<Case> out;
-  for (const Case& c : cases) {
-    if (std::find(named.begin(), named.end(), &c) != named.end()) out.push_back(c);
-  }
-  return out;
-}
-
 LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters) {
   frame.render_direct();  // draws the halves
   LightSet set;
@@ -227,7 +198,7 @@ LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const Frame
 
 std::vector<LightsResult> run_lights(const LightsOptions& options) {
   const Config config = load_config(options.config);
-  const std::vector<Case> cases = select_cases(config.cases, options.cases);
+  const std::vector<Case> cases = select_cases(config.cases, options.cases, "--case");
   const fs::path out =
       fs::absolute(options.out.empty() ? fs::path("reports") / "out" / config.name / "lights" : options.out);
   ensure_writable_directory(out);

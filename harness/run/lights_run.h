@@ -19,7 +19,7 @@ struct LightsOptions {
   std::filesystem::path config;
   std::filesystem::path out;       // empty: reports/out/<name of the config>/lights
   std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
-  std::vector<std::string> cases;  // ids, or a part that one id alone has; empty: all
+  std::vector<std::string> cases;  // globs over their ids; empty: all
   std::string device;              // index or part of a name; empty: the first usable
   uint32_t seed = 0;
   bool csv = false;  // lights.csv instead of lights.json
@@ -35,10 +35,6 @@ struct LightsResult {
   uint64_t lights = 0, empty = 0;
   std::optional<Coverage> coverage;
 };
-
-// Each of `wanted` as the one case it names, in the order of `cases`, once. Throws Error(usage) for one that
-// is part of no id, naming the nearest, or of several.
-std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted);
 
 // The lights that a frame of this seed has, of the first iteration where the case has several. With `shared`
 // they are drawn from those PDFs, as a run that measures generation alone does; else from the case's own.

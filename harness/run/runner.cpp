@@ -1,7 +1,5 @@
 #include "run/runner.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <set>
@@ -15,6 +13,7 @@
 #include "report/accuracy_notes.h"
 #include "report/environment.h"
 #include "run/case_run.h"
+#include "run/overrides.h"
 #include "run/report_store.h"
 #include "run/scene_workers.h"
 
@@ -24,21 +23,9 @@ namespace vsglbench {
 namespace {
 
 Config read_config(const RunOptions& options) {
-  Config config = load_config(options.config);
+  Config config = load_config(options.config, parse_overrides(options.set));
   for (Case& c : config.cases) c.frame.check_passes = options.check_passes;
   return config;
-}
-
-std::vector<Case> select(const Config& config, const std::string& only) {
-  std::vector<Case> cases;
-  for (const Case& c : config.cases) {
-    if (only.empty() || ::fnmatch(only.c_str(), c.id.c_str(), 0) == 0) cases.push_back(c);
-  }
-  if (cases.empty()) {
-    throw fail(ErrorKind::usage, "--only '{}' matches none of the {} cases, such as {}", only,
-               config.cases.size(), config.cases.front().id);
-  }
-  return cases;
 }
 
 std::vector<Case> of_scene(const std::vector<Case>& cases, const std::string& scene) {
@@ -167,7 +154,8 @@ fs::path assets_directory(const fs::path& given) {
 RunOutcome run_config(const RunOptions& options) {
   const Stopwatch watch;
   const Config config = read_config(options);
-  const std::vector<Case> cases = select(config, options.only);
+  const std::vector<std::string> globs(options.only.empty() ? 0 : 1, options.only);
+  const std::vector<Case> cases = select_cases(config.cases, globs, "--only");
   ReportStore store(options.out.empty() ? fs::path("reports") / "out" / config.name : options.out);
   const WorkerOptions workers = worker_options(options, config, store);
   const DeviceReport device = probe_device(workers);

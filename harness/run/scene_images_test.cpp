@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 using namespace vsglbench;
 using testing::ElementsAre;
 
@@ -45,4 +47,23 @@ TEST(Captions, OfOneCaseAreItsMethod) {
   const Captions captions = captions_of({case_of("vpl", "N=64,rsm=256")});
   EXPECT_THAT(captions.cases, ElementsAre("vpl"));
   EXPECT_EQ(captions.shared, "N=64 rsm=256");
+}
+
+// Whatever a scene is called, its pictures stay in the output folder.
+TEST(FileName, IsOneHarmlessComponent) {
+  EXPECT_EQ(file_name("cornell"), "cornell");
+  EXPECT_EQ(file_name("colonnade:cut"), "colonnade@cut");
+  EXPECT_EQ(file_name("N=256,rsm=256,vis=exact"), "N=256,rsm=256,vis=exact");
+  std::set<std::string> seen;
+  for (const std::string& name :
+       {std::string(".."), std::string("."), std::string(""), std::string("../../etc/x.json"),
+        std::string("/abs/scene.json"), std::string("_abs_scene.json"), std::string("a b"),
+        std::string("a\nb"), std::string(1000, 'x'), std::string("\0", 1)}) {
+    const std::string file = file_name(name);
+    EXPECT_EQ(file.find_first_of("/\\ \n:"), std::string::npos) << file;
+    EXPECT_EQ(file.find('\0'), std::string::npos);
+    EXPECT_NE(file.front(), '.');
+    EXPECT_LT(file.size(), 200u);
+    EXPECT_TRUE(seen.insert(file).second) << file;
+  }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,16 @@ struct SceneOptions {
   std::filesystem::path scenes_dir;  // holds NAME/scene.json
   std::filesystem::path assets_dir;  // where downloaded geometry lies; may be empty
 };
+
+// "colonnade:cut" in its parts: a colon after the last slash parts the view off.
+struct SceneName {
+  std::string scene;                // "colonnade", or a path
+  std::optional<std::string> view;  // nothing: the default one
+};
+SceneName parse_scene_name(const std::string& text);
+
+// Whether a name is the path of a file or folder: it has a '/' or ends in .json.
+bool is_path(const std::string& name);
 
 // The geometry of a scene isn't on this machine: says which file, and where to get it.
 class AssetMissing : public Error {
