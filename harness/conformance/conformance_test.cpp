@@ -109,7 +109,8 @@ class Faulty : public Method {
     }
     if (fault == Fault::grows) kept_.emplace_back(context_.device(), "kept", 4096);
     Recorder& r = steps.recorder();
-    if (fault == Fault::unnamed_pass) return r.pass("sample", [&] { dispatch(r, field, target, 0); });
+    if (fault == Fault::unnamed_pass)
+      return r.pass({.step = "sample"}, [&] { dispatch(r, field, target, 0); });
     if (fault == Fault::outside_pass) return dispatch(r, field, target, 0);
     if (fault == Fault::passes_change && frames_ == 0) steps.pass("prepare", [] {});
     steps.pass("sample", [&] {
@@ -156,9 +157,7 @@ class Faulty : public Method {
            scale(),
            gain_,
            {}};
-    const auto& m = field.maps;
-    r.dispatch(kernel_, {*m[0], *m[1], *m[2], *m[3], *m[4], *field.pdf, *target.buffer}, push,
-               groups_for(push.count, 64));
+    r.dispatch(kernel_, {field.maps, *field.pdf, *target.buffer}, push, groups_for(push.count, 64));
   }
 
   MethodContext& context_;
@@ -221,8 +220,8 @@ TEST(Conformance, NanLightsAreFoundInAHalfAndInAFrame) {
   expect(Fault::nan_without_pdf, {"lights", "image"},
          "half rsm 7×5, N = 35, PDF zero everywhere: light 0 has power nan; expected a finite number ≥ 0\n");
   expect(Fault::nan_position, {"lights", "image"},
-         "scene cornell, 64×36, RSM 40×40, N = 64: 160 lights hold a NaN, 0 an Inf, the first is light 0 of "
-         "generate.gbuffer; expected finite lights\n");
+         "scene cornell, 64×36, RSM 40×40, N = 64: 160 lights with a NaN and 0 with an Inf, the first is "
+         "light 0 of generate.gbuffer; expected finite numbers\n");
 }
 
 // Before any input; said in full once.

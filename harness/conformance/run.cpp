@@ -115,9 +115,7 @@ HalfOutput MethodRun::frame(const DeviceHalf& texels, Half half, uint32_t wanted
     out.dispatches_outside = watch.outside();
   }
   out.passes = recorder_.submit_and_wait().passes;
-  out.lights.kind = method_->kind();
-  out.lights.bytes.resize(bytes);
-  lights.download(out.lights.bytes.data(), bytes);
+  out.lights = read_lights(method_->kind(), lights, count);
   out.overrun = describe_overrun("the lights", bytes, first_overrun(lights, bytes));
   if (out.overrun.empty()) out.overrun = overrun_scratch();
   return out;
@@ -125,7 +123,7 @@ HalfOutput MethodRun::frame(const DeviceHalf& texels, Half half, uint32_t wanted
 
 void MethodRun::guard_scratch_like(MethodRun& other) {
   for (const auto& [name, last] : other.context_.scratch_buffers()) {
-    const size_t bytes = other.scratch_.get(name, 0).size() / 4 * 4;  // the most that was asked for
+    const size_t bytes = last.buffer->size() / 4 * 4;  // the most that was asked for
     write_guarded(scratch_.get(name, bytes + kGuardBytes), bytes, kLeftoverWord);
     guarded_[name] = bytes;
   }

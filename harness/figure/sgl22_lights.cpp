@@ -46,13 +46,9 @@ std::vector<std::unique_ptr<Frame>> make_frames(
 
 // The image of a frame just rendered. Throws Error(case_failed) for lights or pixels that are not finite.
 Image finite_image(const Frame& frame, const std::string& model) {
-  const LightHealth lights = frame.light_health();
-  if (!lights.first_bad_pass.empty()) {
-    throw fail(ErrorKind::case_failed,
-               "its lights are not finite: {} with a NaN, {} with an Inf; the first is light {} of {}",
-               lights.nan, lights.inf, lights.first_bad, lights.first_bad_pass);
-  }
-  Image image = frame.indirect();
+  if (const auto bad = frame.results().bad_values())
+    throw fail(ErrorKind::case_failed, "not finite: {}", bad->message());
+  Image image = frame.results().indirect();
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const glm::vec3& p = image.pixels[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
@@ -65,7 +61,8 @@ Image finite_image(const Frame& frame, const std::string& model) {
 // What the camera sees, on the host, and its light by quadrature in double precision.
 class ExactPixels {
  public:
-  explicit ExactPixels(const Frame& frame) : camera_(frame.camera()), lights_(frame.vsgls()) {
+  explicit ExactPixels(const Frame& frame)
+      : camera_(frame.camera()), lights_(frame.results().lights().all<gpu::Vsgl>()) {
     const auto& targets = frame.gbuffer().maps;
     for (size_t i = 0; i < maps_.size(); ++i) maps_[i] = download_map(targets[i]);
   }
@@ -101,7 +98,7 @@ ModelImages small_images(Stage& stage, const FigureInputs& inputs) {
     out.images.push_back(finite_image(*frame, model));
     if (!out.mask.empty()) continue;
     inputs.begin(fmt::format("quadrature of {}×{} pixels", width, height));
-    out.mask = frame->surface_mask();
+    out.mask = frame->results().surface_mask();
     const ExactPixels exact(*frame);
     out.reference = Image(width, height);
     parallel_for(out.reference.pixels.size(), 0, [&](uint64_t i, unsigned) {
@@ -128,8 +125,8 @@ struct Full {
 };
 
 double shade_time(const FrameTimes& times) {
-  for (const PassTime& pass : times.passes) {
-    if (pass.name == "shade") return pass.ms;
+  for (const auto& [pass, ms] : times.passes) {
+    if (pass.stage == PassStage::shade && pass.step.empty()) return ms;
   }
   throw std::logic_error("a frame without a shade pass");
 }

@@ -175,7 +175,7 @@ class VslSampling : public VslTest {
     push.count = static_cast<uint32_t>(given.size());
     Recorder recorder(device());
     recorder.begin();
-    recorder.pass("sampling", [&] {
+    recorder.pass({.step = "sampling"}, [&] {
       recorder.dispatch(kernel, {in, out}, push, groups_for(given.size(), 64));
     });
     recorder.submit_and_wait();

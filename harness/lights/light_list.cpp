@@ -55,20 +55,6 @@ Json fields(const gpu::Vpl& l, const glm::dvec3& origin) {
   return out;
 }
 
-template <class Light>
-void append(const std::vector<Light>& lights, const LightSet& set, const glm::dvec3& origin, Json* list) {
-  for (size_t i = 0; i < lights.size(); ++i) {
-    if (!(lights[i].power > 0)) continue;
-    Json light = {{"index", i}};
-    light.update(fields(lights[i], origin));
-    if (i < set.shapes.squares.size()) {
-      const glm::vec4& s = set.shapes.squares[i];
-      light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
-    }
-    list->push_back(std::move(light));
-  }
-}
-
 // "/diffuse/axis/0" as "diffuse.axis.0".
 std::string column_of(const std::string& pointer) {
   std::string name = pointer.substr(1);
@@ -76,20 +62,20 @@ std::string column_of(const std::string& pointer) {
   return name;
 }
 
-template <class Light>
-uint64_t without_power(const std::vector<Light>& lights) {
-  const auto dark = [](const Light& l) { return !(l.power > 0); };
-  return static_cast<uint64_t>(std::count_if(lights.begin(), lights.end(), dark));
-}
-
 }  // namespace
 
-uint64_t LightSet::empty() const { return without_power(vsgls) + without_power(vpls); }
-
-Json light_list(const LightSet& lights, const glm::dvec3& origin) {
+Json light_list(const LightSet& set, const glm::dvec3& origin) {
   Json list = Json::array();
-  append(lights.vsgls, lights, origin, &list);
-  append(lights.vpls, lights, origin, &list);
+  set.lights.each([&](size_t i, const auto& record) {
+    if (!(record.power > 0)) return;
+    Json light = {{"index", i}};
+    light.update(fields(record, origin));
+    if (i < set.shapes.squares.size()) {
+      const glm::vec4& s = set.shapes.squares[i];
+      light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
+    }
+    list.push_back(std::move(light));
+  });
   return list;
 }
 

@@ -155,18 +155,6 @@ std::vector<std::string> rsm_legend(const LightSet& lights, const std::optional<
 
 // --- in the scene ---
 
-// 2π(1-e^{-2λ})/λ [MFIS16 App. A].
-double sg_integral(double sharpness) {
-  const double y = 2 * sharpness;
-  return 4 * std::numbers::pi * (y > 0 ? -std::expm1(-y) / y : 1);
-}
-
-glm::vec3 reflected(const gpu::Vsgl& l) {
-  return glm::vec3(sg_integral(l.diffuse_sharpness) * glm::dvec3(l.diffuse) +
-                   sg_integral(l.specular_sharpness) * glm::dvec3(l.specular));
-}
-glm::vec3 reflected(const gpu::Vpl& l) { return l.flux * (l.diffuse + l.f0); }
-
 // Direct light at a third of its brightness over a little of how surfaces face the camera, so that what is
 // not lit shows.
 Bitmap background(const CameraView& camera, uint32_t scale) {
@@ -231,9 +219,7 @@ std::vector<Disk> disks_of(const LightSet& lights, const CameraView& camera) {
 
 std::vector<std::string> scene_legend(const LightSet& lights, const std::vector<Disk>& disks) {
   const auto hidden = std::count_if(disks.begin(), disks.end(), [](const Disk& d) { return d.hidden; });
-  const char* marks = lights.kind == LightKind::vsgl  ? "dots: means, disks: sigma"
-                      : lights.kind == LightKind::vsl ? "dots: lights, disks: their radius"
-                                                      : "dots: lights";
+  const char* marks = info_of(lights.lights.kind).marks;
   return {fmt::format("{} of {} lights in view, {} of them hidden (rings)", disks.size(),
                       lights.count() - lights.empty(), hidden),
           fmt::format("{}; colour: of the flux; background: direct light, dimmed", marks)};
@@ -243,17 +229,13 @@ std::vector<std::string> scene_legend(const LightSet& lights, const std::vector<
 
 std::vector<LightMark> light_marks(const LightSet& lights) {
   std::vector<LightMark> marks;
-  const auto add = [&](size_t i, const glm::vec3& position, float sigma, const glm::vec3& flux) {
+  uint32_t index = 0;
+  for (const LightSummary& light : summaries_of(lights.lights)) {
+    const glm::vec3& flux = light.color;
     const float top = std::max({flux.x, flux.y, flux.z, 1e-30f});
-    marks.push_back({static_cast<uint32_t>(i), position, sigma, glm::clamp(flux / top, 0.0f, 1.0f)});
-  };
-  for (size_t i = 0; i < lights.vsgls.size(); ++i) {
-    const gpu::Vsgl& l = lights.vsgls[i];
-    if (l.power > 0) add(i, l.mean, std::sqrt(l.variance), reflected(l));
-  }
-  for (size_t i = 0; i < lights.vpls.size(); ++i) {
-    const gpu::Vpl& l = lights.vpls[i];
-    if (l.power > 0) add(i, l.position, l.radius, reflected(l));
+    const float size = light.radius > 0 ? light.radius : std::sqrt(light.variance);
+    if (light.power > 0) marks.push_back({index, light.position, size, glm::clamp(flux / top, 0.0f, 1.0f)});
+    ++index;
   }
   return marks;
 }

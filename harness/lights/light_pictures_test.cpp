@@ -16,7 +16,7 @@ LightSet one_square() {
   l.diffuse = {0, 2, 1};
   l.mean = {0, 0, -2};
   l.variance = 0.01f;
-  set.vsgls = {l};
+  set.lights = records_of(LightKind::vsgl, std::vector{l});
   set.shapes.squares = {{2.5f, 3.5f, 3, 0}};
   for (int i = 0; i < 64; ++i) set.pdf.push_back(i % 8 < 4 ? 1.0f : 0.0f);
   return set;
@@ -29,7 +29,7 @@ glm::u8vec3 pixel(const Bitmap& b, uint32_t x, uint32_t y) {
 
 TEST(LightPictures, ALightsColourIsItsFluxs) {
   LightSet set = one_square();
-  set.vsgls.push_back({});  // without power
+  set.lights.bytes.resize(2 * sizeof(gpu::Vsgl));  // another one, without power
   const auto marks = light_marks(set);
   ASSERT_EQ(marks.size(), 1u);
   EXPECT_NEAR(marks[0].sigma, 0.1f, 1e-7f);
@@ -41,7 +41,7 @@ TEST(LightPictures, ALightsColourIsItsFluxs) {
   vpl.flux = {1, 1, 1};
   vpl.diffuse = {0.2f, 0.4f, 0};
   set = {};
-  set.vpls = {vpl};
+  set.lights = records_of(LightKind::vpl, std::vector{vpl});
   EXPECT_EQ(light_marks(set)[0].color, glm::vec3(0.5f, 1, 0));
 }
 

@@ -55,7 +55,7 @@ class NearestBlock : public Block {
     draw_centres(input.ends_with("crowded"));
     field_.emitter.width = width;
     field_.emitter.height = height;
-    field_.maps[0] = &map_;
+    field_.maps.position = &map_;
     ids_ = Buffer(on_.device, "ids", size * 4);
     std::vector<Contestant> all;
     using Search = NearestCentre::Search;

@@ -80,7 +80,7 @@ TEST_P(FilteredSamplingOracle, MatchesDouble) {
   const auto lights = bench.lights<gpu::Vsgl>(half, count, shift);
   std::vector<double> differences;
   for (uint32_t i = 0; i < count; ++i) {
-    const auto rule = method == "fis" ? oracle::Rule::fis : oracle::Rule::mfis;
+    const LightRule rule = find_method(method).light_rule;
     const auto c = oracle::filtered_light(half, pyramid, rule, k, count, lattice_point(i, count, shift));
     differences.push_back(difference(lights[i], c));
   }

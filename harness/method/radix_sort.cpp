@@ -5,14 +5,15 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "gpu/limits.h"
 
 namespace vsglbench {
 namespace {
 
 constexpr uint32_t kTileKeys = 2048;  // as in shaders/radix_tile.glsl
-// lavapipe ends an invocation's loops after 65535 rounds, without a word; a run is gone through 4 keys a
-// round.
+// Keys of a run, of which an invocation takes 4 a round.
 constexpr uint32_t kMostRun = 1u << 17;
+static_assert(kMostRun / 4 < limits::loop_rounds);
 
 void check(RadixSort::Pairs input, RadixSort::Pairs scratch, uint32_t count, uint32_t bits,
            bool needs_input) {

@@ -92,6 +92,8 @@ MethodInfo refuse(const fs::path& library, const std::string& why) {
 // A default outside its own range, or one name twice, is the plugin's mistake: better told now than in a run.
 std::string mistake_in(const MethodInfo& info) {
   if (!info.create) return "has no `create`";
+  if (info.makes_importance && !is_light_kind(*info.makes_importance))
+    return "makes importance by lights of no kind";
   for (const double bound : {info.flux_bound, info.uneven_flux_bound})
     if (!std::isfinite(bound)) return fmt::format("has a flux_bound of {}", bound);
   for (const auto& p : info.parameters) {
@@ -144,6 +146,14 @@ MethodInfo open_plugin(const fs::path& library) {
   return info;
 }
 
+// Json::other_error where there is none.
+LightKind kind_named(const std::string& name) {
+  for (const LightKind kind : light_kinds()) {
+    if (info_of(kind).name == name) return kind;
+  }
+  throw Json::other_error::create(501, "no kind of light is called " + name, nullptr);
+}
+
 MethodInfo from_json(const Json& j, const fs::path& library) {
   MethodInfo info = named_after(library);
   info.summary = j.at("summary");
@@ -154,6 +164,7 @@ MethodInfo from_json(const Json& j, const fs::path& library) {
   info.device_features = j.at("device_features");
   info.flux_bound = j.at("flux_bound");
   info.uneven_flux_bound = j.at("uneven_flux_bound");
+  if (!j.at("makes_importance").is_null()) info.makes_importance = kind_named(j.at("makes_importance"));
   info.refused = j.value("refused", "");
   for (const auto& p : j.at("parameters")) {
     info.parameters.push_back({p.at("name"), p.at("default"), p.at("description"), p.value("minimum", 0.0),
@@ -265,6 +276,26 @@ const MethodInfo& find_method(const std::string& name) {
   throw fail(ErrorKind::config, "no method '{}'{}", name, suggestion(name, known));
 }
 
+// The programme's own folder is the last that is searched: a copy of its method under another name, in a
+// folder of one's own, does not take its place unasked.
+const MethodInfo& find_importance_maker(LightKind kind) {
+  const auto serves = [&](const MethodInfo* method) {
+    return method->refused.empty() && method->makes_importance == kind;
+  };
+  const fs::path own = plugin_folders().back();
+  const auto is_own = [&](const MethodInfo* method) {
+    return serves(method) && method->library.parent_path() == fs::absolute(own);
+  };
+  const auto& all = all_methods();
+  auto found = std::ranges::find_if(all, is_own);
+  if (found == all.end()) found = std::ranges::find_if(all, serves);
+  if (found != all.end()) return **found;
+  throw fail(ErrorKind::config,
+             "no method says that it makes importance by lights of kind {}; build methods/, or use "
+             "importance own",
+             info_of(kind).name);
+}
+
 MethodInfo inspect_plugin(const fs::path& library) {
   std::error_code ec;
   if (const std::string name = fs::absolute(library).string(); !is_text(name)) {
@@ -311,17 +342,19 @@ Json to_json(const MethodInfo& method) {
     }
     parameters.push_back(std::move(entry));
   }
-  Json j = {{"name", method.name},
-            {"summary", method.summary},
-            {"source", method.source},
-            {"takes_light_count", method.takes_light_count},
-            {"light_count", method.light_count},
-            {"makes_vpls", method.makes_vpls},
-            {"parameters", std::move(parameters)},
-            {"device_features", method.device_features},
-            {"flux_bound", method.flux_bound},
-            {"uneven_flux_bound", method.worst_flux_bound()},
-            {"library", method.library.string()}};
+  Json j = {
+      {"name", method.name},
+      {"summary", method.summary},
+      {"source", method.source},
+      {"takes_light_count", method.takes_light_count},
+      {"light_count", method.light_count},
+      {"makes_vpls", method.makes_vpls},
+      {"parameters", std::move(parameters)},
+      {"device_features", method.device_features},
+      {"flux_bound", method.flux_bound},
+      {"uneven_flux_bound", method.worst_flux_bound()},
+      {"makes_importance", method.makes_importance ? Json(info_of(*method.makes_importance).name) : Json()},
+      {"library", method.library.string()}};
   if (!method.refused.empty()) j["refused"] = method.refused;
   return j;
 }

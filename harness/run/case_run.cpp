@@ -153,7 +153,7 @@ void CaseRun::step() {
 }
 
 void CaseRun::score(uint32_t seed) {
-  const Image image = frame_->indirect();
+  const Image image = frame_->results().indirect();
   if (mask_.empty()) make_mask();
   check_health_of(image);
   check_lights();
@@ -183,14 +183,15 @@ void CaseRun::measure_look(const Image& image, uint32_t seed, Errors* errors) {
 }
 
 void CaseRun::make_mask() {
-  mask_ = frame_->surface_mask();
+  mask_ = frame_->results().surface_mask();
   for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && input_.reference->mask[i];
 }
 
 // One NaN or Inf fails the case and names the pass that first held one; it is never averaged away.
 void CaseRun::check_health_of(const Image& image) {
   const Health health = check_health(image);
-  const std::string pass = health.finite() ? "" : frame_->first_bad_pass();
+  const auto bad = health.finite() ? std::nullopt : frame_->results().first_bad_pass();
+  const std::string pass = bad ? bad->name() : "";
   HealthReport report = health_report(health, pass);
   if (result_.health) {  // counts add up over seeds
     report.nan += result_.health->nan;
@@ -205,15 +206,21 @@ void CaseRun::check_health_of(const Image& image) {
   throw fail(ErrorKind::case_failed, "not finite");  // ends the step; the failure above stays
 }
 
-// The same for the lights. A light of NaNs need not show in the image: what has no power above 0 is not
-// shaded.
+// The same for the lights and the importance. A light of NaNs need not show in the image: what has no power
+// above 0 is not shaded; and from a PDF with a NaN no light is drawn.
 void CaseRun::check_lights() {
-  const LightHealth health = frame_->light_health();
-  if (health.first_bad_pass.empty()) return;
-  result_.health = HealthReport{health.nan, health.inf, 0,
-                                FirstBad{health.first_bad_pass, std::nullopt, health.first_bad}};
-  fail_with("not_finite", fmt::format("{} lights with a NaN and {} with an Inf, the first is light {} of {}",
-                                      health.nan, health.inf, health.first_bad, health.first_bad_pass));
+  const std::optional<BadValues> bad = frame_->results().bad_values();
+  if (!bad) return;
+  FirstBad first{.pass = bad->pass.name()};
+  if (bad->are_lights) {
+    first.light = bad->first;
+  } else {
+    first.buffer = "pdf.rsm";
+    first.element = bad->first;
+    first.texel = bad->texel;
+  }
+  result_.health = HealthReport{bad->nan, bad->inf, 0, first};
+  fail_with("not_finite", bad->message());
   throw fail(ErrorKind::case_failed, "not finite");
 }
 
@@ -226,8 +233,8 @@ void CaseRun::check_memory() {
 // Σ light power / Σ texel power of the last frame, or 0 where the texels have none. The RSM is the same for
 // all seeds.
 double CaseRun::check_flux() {
-  if (!texel_power_) texel_power_ = frame_->texel_power();
-  const double power = frame_->light_power();
+  if (!texel_power_) texel_power_ = frame_->results().texel_power();
+  const double power = frame_->results().light_power();
   if (!(*texel_power_ > 0)) {
     if (power > 0)
       refuse(fmt::format("power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none",
@@ -236,7 +243,7 @@ double CaseRun::check_flux() {
   }
   // A PDF that is zero everywhere asks for no light.
   const double flux = power / *texel_power_;
-  if (flux > 0 || frame_->has_importance()) flux_.push_back(flux);
+  if (flux > 0 || frame_->results().has_importance()) flux_.push_back(flux);
   if (const std::string fault = flux_fault(find_method(case_.method), flux_); !fault.empty()) refuse(fault);
   return flux;
 }
@@ -250,7 +257,7 @@ void CaseRun::refuse(const std::string& why) {
 void CaseRun::check_passes() {
   const std::optional<BadOutput> bad = frame_->bad_output();
   if (!bad) return;
-  FirstBad first{.pass = bad->pass, .buffer = bad->buffer, .field = bad->field};
+  FirstBad first{.pass = bad->pass.name(), .buffer = bad->buffer, .field = bad->field};
   (bad->is_light ? first.light : first.element) = bad->element;
   first.texel = bad->texel;
   first.level = bad->level;
@@ -260,15 +267,14 @@ void CaseRun::check_passes() {
 }
 
 void CaseRun::record(const FrameTimes& times) {
-  if (pass_names_.empty()) {
-    for (const auto& pass : times.passes) pass_names_.push_back(pass.name);
-    pass_ms_.resize(pass_names_.size());
+  if (passes_.empty()) {
+    for (const PassTime& time : times.passes) passes_.push_back(time.pass);
+    pass_ms_.resize(passes_.size());
   }
-  const auto same = [](const std::string& name, const PassTime& pass) { return name == pass.name; };
-  if (!std::equal(pass_names_.begin(), pass_names_.end(), times.passes.begin(), times.passes.end(), same)) {
+  if (!std::ranges::equal(passes_, times.passes, {}, {}, &PassTime::pass)) {
     throw fail(ErrorKind::case_failed, "frame {} had other passes than the first", span_ms_.size());
   }
-  for (size_t i = 0; i < pass_names_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
+  for (size_t i = 0; i < passes_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
   span_ms_.push_back(times.span_ms);
   if (!result_.generate) result_.generate.emplace();
   result_.generate->dispatches = times.generate_dispatches;
@@ -276,12 +282,8 @@ void CaseRun::record(const FrameTimes& times) {
 
 void CaseRun::describe_lights() {
   GenerateResult& generate = *result_.generate;
-  const auto without_power = [](const auto& lights) {
-    return static_cast<uint64_t>(
-        std::count_if(lights.begin(), lights.end(), [](const auto& l) { return !(l.power > 0); }));
-  };
   generate.lights = frame_->light_count();
-  generate.empty = without_power(frame_->vsgls()) + without_power(frame_->vpls());
+  generate.empty = count_without_power(frame_->results().lights());
   generate.shaders = frame_->method_kernels();
   generate.memory_bytes = frame_->method_bytes();
   const uint32_t side = case_.frame.rsm;
@@ -297,7 +299,7 @@ void CaseRun::describe_lights() {
 }
 
 void CaseRun::describe_shading() {
-  ShadingNotes notes = frame_->shading_notes();
+  ShadingNotes notes = frame_->results().shading_notes();
   if (notes.clamp_removed || notes.cancellation_rate)
     result_.shading = ShadingResult{notes.clamp_removed, notes.cancellation_rate};
   cancellation_ = std::move(notes.cancellation);
@@ -305,14 +307,12 @@ void CaseRun::describe_shading() {
 
 CaseResult CaseRun::result() const {
   CaseResult r = result_;
-  for (size_t i = 0; i < pass_names_.size(); ++i)
-    r.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
+  for (size_t i = 0; i < passes_.size(); ++i) r.passes.push_back({passes_[i], summarize(pass_ms_[i])});
   if (!span_ms_.empty()) {
     r.frame = frame_timing(span_ms_, r.passes);
     if (!rays_ms_.empty()) r.frame->host_visibility = summarize(rays_ms_);
-    const auto total = sum_of_passes(r.passes, {"generate."});
-    const auto gbuffer = sum_of_passes(r.passes, {"generate.gbuffer."});
-    const auto rsm = sum_of_passes(r.passes, {"generate.rsm."});
+    const auto total = generate_time(r.passes);
+    const auto gbuffer = generate_time(r.passes, Half::gbuffer), rsm = generate_time(r.passes, Half::rsm);
     r.generate->total = total ? *total : summarize(std::vector<double>(span_ms_.size(), 0));
     r.generate->gbuffer_ms = gbuffer ? gbuffer->median : 0;
     r.generate->rsm_ms = rsm ? rsm->median : 0;

@@ -94,7 +94,7 @@ class CaseRun {
   CaseInput input_;
   std::unique_ptr<Frame> frame_;
   CaseResult result_;  // but for what result() makes of the samples below
-  std::vector<std::string> pass_names_;
+  std::vector<PassId> passes_;
   std::vector<std::vector<double>> pass_ms_;  // of each pass, one a frame
   std::vector<double> span_ms_;
   std::vector<double> rays_ms_;  // of exact visibility on the host, in each frame that traced any

@@ -160,7 +160,7 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
       out["reference"]["time_limit_s"] = config.reference.time_limit_s;
     }
   }
-  if (generation) out["pdfs_made_by"] = ScenePdfs::kMaker;
+  if (generation) out["pdfs_made_by"] = ScenePdfs::maker().name;
   out["time_limit_s"] = config.time_limit_s;
   out["timing"] = {{"warmup", config.warmup},
                    {"min_samples", config.timing.min_samples},

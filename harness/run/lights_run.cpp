@@ -44,10 +44,6 @@ Json to_json(const Coverage& c) {
   return json;
 }
 
-const char* kind_name(LightKind kind) {
-  return kind == LightKind::vsgl ? "vsgl" : kind == LightKind::vsl ? "vsl" : "vpl";
-}
-
 // Of this run, for every case's file.
 class LightsRun {
  public:
@@ -149,7 +145,7 @@ Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& sce
       {"method", c.method},
       {"parameters", c.parameters},
       {"seed", options_.seed},
-      {"kind", kind_name(lights.kind)},
+      {"kind", info_of(lights.lights.kind).name},
       {"count", result.lights},
       {"empty", result.empty}};
   if (result.coverage) json["coverage"] = to_json(*result.coverage);
@@ -176,21 +172,15 @@ std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed
 LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters) {
   frame.render_direct();  // draws the halves
   LightSet set;
-  set.kind = frame.light_kind();
   set.rsm = parameters.rsm;
   const uint64_t texels = uint64_t(set.rsm) * set.rsm;
-  const bool uses_pdf = !frame.importance().empty();
+  const bool uses_pdf = frame.uses_importance();
   KeptPdfs own;
   if (uses_pdf && !shared) own = frame.prepare(seed);
   const KeptPdfs& pdfs = uses_pdf && shared ? shared->get(parameters) : own;
   frame.generate_only(seed, pdfs);
-  const LightHealth health = frame.light_health();
-  if (!health.first_bad_pass.empty()) {
-    throw fail(ErrorKind::case_failed, "{} lights with a NaN and {} with an Inf, the first is light {} of {}",
-               health.nan, health.inf, health.first_bad, health.first_bad_pass);
-  }
-  set.vsgls = frame.vsgls();
-  set.vpls = frame.vpls();
+  if (const auto bad = frame.results().bad_values()) throw fail(ErrorKind::case_failed, "{}", bad->message());
+  set.lights = frame.results().lights();
   set.shapes = read_shapes(frame.light_shapes(), set.count(), texels);
   if (uses_pdf) set.pdf = pdfs.rsm.download<float>(texels);
   return set;

@@ -162,8 +162,8 @@ void SceneImages::write_direct(Frame& frame) {
   guarded(
       "output",
       [&] {
-        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(), frame.surface_mask(),
-                   static_cast<float>(scene_->exposure));
+        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(),
+                   frame.results().surface_mask(), static_cast<float>(scene_->exposure));
       },
       warn);
 }
