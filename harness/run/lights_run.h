@@ -36,6 +36,10 @@ struct LightsResult {
   std::optional<Coverage> coverage;
 };
 
+// As messages of the process that draws.
+Json to_json(const LightsResult& result);
+void from_json(const Json& json, LightsResult* result);
+
 // Each of `wanted` as the one case it names, in the order of `cases`, once. Throws Error(usage) for one that
 // is part of no id, naming the nearest, or of several.
 std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted);
@@ -46,8 +50,10 @@ std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector
 // Inf.
 LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters);
 
-// Draws and writes each case, and a row for each in coverage.csv. A case that fails, or whose scene is not on
-// this machine, costs itself. Throws Error for what stops all: config, cases, output folder, device.
+// Draws and writes each case, and a row for each in coverage.csv. A case that fails, crashes or
+// hangs (Config::time_limit_s), or whose scene is not on this machine, costs itself. For a process without
+// threads and without a Vulkan device: it forks. Throws Error for what stops all: config, cases, output
+// folder, device.
 std::vector<LightsResult> run_lights(const LightsOptions& options);
 
 }  // namespace vsglbench
