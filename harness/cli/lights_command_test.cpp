@@ -29,7 +29,7 @@ class LightsCommand : public CliTest {
 };
 
 TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
-  const Finished f = lights({"--seed", "5"});
+  const Finished f = lights({"--seed", "5", "-q"});
   ASSERT_EQ(f.code, 0) << f.err;
   EXPECT_EQ(f.err, "");
   for (const char* method : {"mfis", "kmeans2d", "vpl"}) {
@@ -106,6 +106,30 @@ TEST_F(LightsCommand, ACaseThatFailsCostsItself) {
   EXPECT_EQ(f.code, 1) << f.err;
   EXPECT_TRUE(contains(f.out, "failed: N = 257 lights can't be drawn"));
   EXPECT_TRUE(fs::exists(folder("mfis") / "scene.png"));
+}
+
+// Each with its first frame; the other methods' pictures are made.
+TEST_F(LightsCommand, APluginThatCrashesOrHangsCostsItsOwnCase) {
+  config_["methods"] = {{{"method", "vpl"}},
+                        {{"method", "crashes"}, {"frame", 1}},
+                        {{"method", "hangs"}, {"frame", 1}},
+                        {{"method", "mfis"}}};
+  config_["time_limit_s"] = 8;
+  const fs::path bad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+  const Finished f = lights({"--plugin-path", bad.string()});
+  EXPECT_EQ(f.signal, 0);
+  EXPECT_EQ(f.code, 1) << f.err;
+  EXPECT_TRUE(contains(f.out, "failed: crashed (signal 11, Segmentation fault) during drawing its lights\n"));
+  EXPECT_TRUE(
+      contains(f.out, "failed: was stopped after 8 s without a sign of life during drawing its lights\n"));
+  for (const char* method : {"vpl", "mfis"}) {
+    EXPECT_TRUE(fs::exists(folder(method) / "rsm.png")) << method;
+    EXPECT_TRUE(fs::exists(folder(method) / "scene.png")) << method;
+    EXPECT_GT(json(method).at("lights").size(), 0u);
+  }
+  const std::string table = read_text(out_ / "coverage.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_TRUE(contains(table, "\"cornell/crashes/") && contains(table, ",0,failed,"));
 }
 
 TEST_F(LightsCommand, ASceneThatIsNotHereIsSkipped) {

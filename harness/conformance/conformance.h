@@ -55,7 +55,7 @@ struct CheckResult {
 std::vector<std::string> conformance_checks();
 
 // Runs the checks, telling each result as it comes. A method without `create` is loaded from its library, in
-// the checking process only. The caller has neither threads nor a Vulkan device (base/child.h). Throws
+// the checking process only. The caller has neither threads nor a Vulkan device (base/supervise.h). Throws
 // Error(device) without a usable device, Error(plugin) for a plugin that is refused, Error(usage) for an
 // unknown check.
 std::vector<CheckResult> check_conformance(const MethodInfo& method, const ConformanceOptions& options,

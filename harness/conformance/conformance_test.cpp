@@ -133,7 +133,7 @@ class Faulty : public Method {
   void end_badly() const {
     ::signal(SIGSEGV, SIG_DFL);
     if (fault == Fault::crashes_on_a_column) ::raise(SIGSEGV);
-    if (fault == Fault::loses_device) throw Error(ErrorKind::device, "the device was lost");
+    if (fault == Fault::loses_device) throw Error(ErrorKind::device_lost, "the device was lost");
     if (fault == Fault::leaves) ::_exit(0);
   }
 
@@ -315,7 +315,8 @@ TEST(Conformance, AHangCostsItsCheckOnly) {
 
 TEST(Conformance, ALostDeviceOrAnEarlyEndCostsItsCheckOnly) {
   expect(Fault::loses_device, {"lights", "bounds"}, "the device was lost (on half gbuffer 1×64, N = 64)\n");
-  expect(Fault::leaves, {"lights", "bounds"}, "ended the process (on half gbuffer 1×64, N = 64)\n");
+  expect(Fault::leaves, {"lights", "bounds"},
+         "ended the process (exit code 0) (on half gbuffer 1×64, N = 64)\n");
 }
 
 TEST(Conformance, RefusesWhatItCantRun) {

@@ -27,9 +27,13 @@ struct DrawnFigure {
   Json device;  // name, type, driver, driver_version
 };
 
+// As messages of the process that draws.
+Json to_json(const DrawnFigure& drawn);
+void from_json(const Json& json, DrawnFigure* drawn);
+
 // For a process without threads and without a Vulkan device: it forks. Throws Error(device) where no device
-// can be opened; else "figure NAME, method METHOD: ..." of the kind of what was wrong, Error(case_failed) for
-// a process that crashed or was stopped, and for a device that was lost.
+// can be opened; else "figure NAME, method METHOD: ..." of the kind of what was wrong, Error(crashed) or
+// Error(timeout) for a process that crashed or was stopped, Error(case_failed) for a device that was lost.
 DrawnFigure draw_figure(const FigureOrder& order);
 
 }  // namespace vsglbench

@@ -21,11 +21,21 @@ void check_vulkan(VkResult result, const char* call, const char* file, int line)
                        : result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? "out of device memory"
                        : result == VK_ERROR_OUT_OF_HOST_MEMORY   ? "out of host memory"
                                                                  : "failed";
-  throw fail(ErrorKind::device, "Vulkan: {} (code {}) in {} at {}:{}", reason, static_cast<int>(result), call,
-             base ? base + 1 : file, line);
+  throw fail(ErrorKind::device_lost, "Vulkan: {} (code {}) in {} at {}:{}", reason, static_cast<int>(result),
+             call, base ? base + 1 : file, line);
 }
 
 namespace {
+
+// A Vulkan call that fails before there is a device means that none can be opened.
+template <class Action>
+auto opening(const Action& action) {
+  try {
+    return action();
+  } catch (const Error& e) {
+    throw Error(e.kind() == ErrorKind::device_lost ? ErrorKind::device : e.kind(), e.what());
+  }
+}
 
 VkInstance make_instance(bool validation) {
   const VkApplicationInfo app{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
@@ -63,7 +73,7 @@ VkInstance make_instance(bool validation) {
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
-  const VkInstance instance = make_instance(false);
+  const VkInstance instance = opening([] { return make_instance(false); });
   std::vector<DeviceInfo> out;
   for (const VkPhysicalDevice device : physical_devices(instance)) {
     out.push_back(describe_device(device, static_cast<uint32_t>(out.size())));
@@ -73,10 +83,12 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device::Device(const DeviceOptions& options) {
-  create_instance(options.validation);
-  pick(options.select);
-  create_device();
-  LoopCheck::create(*this);
+  opening([&] {
+    create_instance(options.validation);
+    pick(options.select);
+    create_device();
+    LoopCheck::create(*this);
+  });
 }
 
 Device::~Device() {

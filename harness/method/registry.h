@@ -40,5 +40,6 @@ std::string plugin_hash(const MethodInfo& method);
 
 // What `list methods --json` shows, and what the inspecting process sends: all but `create`.
 Json to_json(const MethodInfo& method);
+void from_json(const Json& json, MethodInfo* method);
 
 }  // namespace vsglbench

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/json.h"
 #include "image/metrics.h"
 #include "measure/statistics.h"
@@ -197,11 +198,8 @@ enum class Status { ok, failed, skipped };
 std::string_view name(Status status);
 
 struct CaseError {
-  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal";
-  // "refused" for lights that can't be: not written, of power from nothing or beyond what the method states,
-  // written past their end; "crashed", "timeout" or "device_lost" for what ended the case's process; "device"
-  // when none can be opened
-  std::string kind, message;
+  ErrorKind kind = ErrorKind::case_failed;
+  std::string message;
 };
 
 // What of a frame is rendered and timed: all of it, or only the two generate passes, on halves and PDFs made

@@ -76,7 +76,7 @@ inline CaseResult synthetic_failure(const std::string& id, Status status, const 
   c.scene = "cornell";
   c.method = "vpl";
   c.status = status;
-  c.error = CaseError{"case_failed", message};
+  c.error = CaseError{ErrorKind::case_failed, message};
   return c;
 }
 

@@ -22,10 +22,6 @@ void state_exposures(const FlipExposures& exposures, MetricResult* flip) {
 
 }  // namespace
 
-std::string error_kind(const Error& error, const char* input) {
-  return error.exit_code() == 1 ? "case_failed" : input;
-}
-
 std::string one_line(std::string text) {
   constexpr size_t kMostCharacters = 500;
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -48,14 +44,13 @@ CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall, 
   result_.parameters = case_.parameters;
 }
 
-void CaseRun::fail_with(const std::string& kind, const std::string& message) {
+void CaseRun::fail_with(ErrorKind kind, const std::string& message) {
   if (failed()) return;
-  result_.status = kind == "asset_missing" ? Status::skipped : Status::failed;
+  result_.status = kind == ErrorKind::asset_missing ? Status::skipped : Status::failed;
   result_.error = CaseError{kind, message};
   frame_.reset();
 }
 
-// What a user gives a case beside numbers is a method: a kernel that does not compile, say.
 template <class Action>
 void CaseRun::attempt(const std::string& name, const Action& action) {
   if (finished()) return;
@@ -64,7 +59,7 @@ void CaseRun::attempt(const std::string& name, const Action& action) {
     announce(true);
     action();
   };
-  guarded("plugin", announced, [this](const auto& kind, const auto& message) { fail_with(kind, message); });
+  guarded(announced, [this](ErrorKind kind, const std::string& message) { fail_with(kind, message); });
 }
 
 void CaseRun::announce(bool limited) const {
@@ -200,10 +195,9 @@ void CaseRun::check_health_of(const Image& image) {
   }
   result_.health = report;
   if (health.finite()) return;
-  fail_with("not_finite",
-            fmt::format("{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one",
-                        health.nan, health.inf, health.first_bad->x, health.first_bad->y, pass));
-  throw fail(ErrorKind::case_failed, "not finite");  // ends the step; the failure above stays
+  throw fail(ErrorKind::not_finite,
+             "{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one", health.nan,
+             health.inf, health.first_bad->x, health.first_bad->y, pass);
 }
 
 // The same for the lights and the importance. A light of NaNs need not show in the image: what has no power
@@ -220,14 +214,13 @@ void CaseRun::check_lights() {
     first.texel = bad->texel;
   }
   result_.health = HealthReport{bad->nan, bad->inf, 0, first};
-  fail_with("not_finite", bad->message());
-  throw fail(ErrorKind::case_failed, "not finite");
+  throw Error(ErrorKind::not_finite, bad->message());
 }
 
 // Lights that no kernel wrote are what another case left there, and what is written past a buffer's end
 // another's memory: neither may be scored, however plausible the picture.
 void CaseRun::check_memory() {
-  if (!frame_->memory_fault().empty()) refuse(frame_->memory_fault());
+  if (!frame_->memory_fault().empty()) throw Error(ErrorKind::refused, frame_->memory_fault());
 }
 
 // Σ light power / Σ texel power of the last frame, or 0 where the texels have none. The RSM is the same for
@@ -237,20 +230,16 @@ double CaseRun::check_flux() {
   const double power = frame_->results().light_power();
   if (!(*texel_power_ > 0)) {
     if (power > 0)
-      refuse(fmt::format("power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none",
-                         power));
+      throw fail(ErrorKind::refused,
+                 "power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none", power);
     return 0;
   }
   // A PDF that is zero everywhere asks for no light.
   const double flux = power / *texel_power_;
   if (flux > 0 || frame_->results().has_importance()) flux_.push_back(flux);
-  if (const std::string fault = flux_fault(find_method(case_.method), flux_); !fault.empty()) refuse(fault);
+  const std::string fault = flux_fault(find_method(case_.method), flux_);
+  if (!fault.empty()) throw Error(ErrorKind::refused, fault);
   return flux;
-}
-
-void CaseRun::refuse(const std::string& why) {
-  fail_with("refused", why);
-  throw fail(ErrorKind::case_failed, "refused");  // ends the step; the failure above stays
 }
 
 // With check_passes, and in every frame: what any pass wrote, though nothing of it may be left at the end.
@@ -262,8 +251,7 @@ void CaseRun::check_passes() {
   first.texel = bad->texel;
   first.level = bad->level;
   result_.health = HealthReport{bad->nan, bad->inf, 0, first};
-  fail_with("not_finite", bad->message());
-  throw fail(ErrorKind::case_failed, "not finite");
+  throw Error(ErrorKind::not_finite, bad->message());
 }
 
 void CaseRun::record(const FrameTimes& times) {

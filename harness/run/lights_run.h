@@ -36,14 +36,20 @@ struct LightsResult {
   std::optional<Coverage> coverage;
 };
 
+// As messages of the process that draws.
+Json to_json(const LightsResult& result);
+void from_json(const Json& json, LightsResult* result);
+
 // The lights that a frame of this seed has, of the first iteration where the case has several. With `shared`
 // they are drawn from those PDFs, as a run that measures generation alone does; else from the case's own.
 // Draws the halves; visibility and shading are left out. Throws Error(case_failed) for lights with a NaN or
 // Inf.
 LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters);
 
-// Draws and writes each case, and a row for each in coverage.csv. A case that fails, or whose scene is not on
-// this machine, costs itself. Throws Error for what stops all: config, cases, output folder, device.
+// Draws and writes each case, and a row for each in coverage.csv. A case that fails, crashes or
+// hangs (Config::time_limit_s), or whose scene is not on this machine, costs itself. For a process without
+// threads and without a Vulkan device: it forks. Throws Error for what stops all: config, cases, output
+// folder, device.
 std::vector<LightsResult> run_lights(const LightsOptions& options);
 
 }  // namespace vsglbench

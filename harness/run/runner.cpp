@@ -37,7 +37,7 @@ std::vector<Case> of_scene(const std::vector<Case>& cases, const std::string& sc
 
 // A scene whose asset was absent, or a case that no device was left for, is tried again.
 bool is_final(const CaseResult& r) {
-  return r.status != Status::skipped && !(r.error && r.error->kind == "device");
+  return r.status != Status::skipped && !(r.error && r.error->kind == ErrorKind::device);
 }
 
 // Whether an interrupted run left nothing to do.
@@ -78,7 +78,8 @@ void refuse_invalid(CaseResult* result) {
   failed.measure = result->measure;
   failed.parameters = result->parameters;
   failed.status = Status::failed;
-  failed.error = CaseError{"internal", one_line("no report takes its result: " + violations.front())};
+  failed.error =
+      CaseError{ErrorKind::internal, one_line("no report takes its result: " + violations.front())};
   *result = std::move(failed);
 }
 
@@ -129,7 +130,8 @@ Report fresh_report(const RunOptions& options, const Config& config, const Devic
 int exit_code(const RunOutcome& outcome, bool device_gone) {
   const bool failed = std::any_of(outcome.report.cases.begin(), outcome.report.cases.end(),
                                   [](const CaseResult& c) { return c.status == Status::failed; });
-  return device_gone ? 3 : failed || !outcome.validation_messages.empty() ? 1 : 0;
+  if (device_gone) return exit_code(ErrorKind::device);
+  return failed || !outcome.validation_messages.empty() ? exit_code(ErrorKind::case_failed) : 0;
 }
 
 WorkerOptions worker_options(const RunOptions& options, const Config& config, ReportStore& store) {
@@ -189,7 +191,8 @@ RunOutcome run_config(const RunOptions& options) {
       const bool aa = !options.check_passes && !done.aa;
       run_scene_in_workers(scene, config, wanted, aa, workers, save_so_far, &done, &log);
     } else {
-      for (auto& result : failed_cases(wanted, config, "device", "the device was lost in an earlier scene"))
+      for (auto& result :
+           failed_cases(wanted, config, ErrorKind::device, "the device was lost in an earlier scene"))
         done.cases.push_back(result);
     }
     add(std::move(done), wanted, &report);

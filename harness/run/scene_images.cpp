@@ -145,22 +145,20 @@ void SceneImages::write(CaseRun& run, CaseResult* result) {
   if (!run.image()) return;
   if (!exposed_) scene_->exposure = auto_exposure(run.reference()->mean, run.reference()->mask);
   exposed_ = true;
-  const auto failed = [&](const std::string& kind, const std::string& message) {
+  const auto failed = [&](ErrorKind kind, const std::string& message) {
     if (result->status == Status::ok) result->error = CaseError{kind, message};
     if (result->status == Status::ok) result->status = Status::failed;
   };
-  guarded(
-      "output", [&] { write_case(out_, run, static_cast<float>(scene_->exposure), result); }, failed);
+  guarded([&] { write_case(out_, run, static_cast<float>(scene_->exposure), result); }, failed);
   if (!direct_ && run.frame()) write_direct(*run.frame());
 }
 
 void SceneImages::write_direct(Frame& frame) {
   direct_ = true;
-  const auto warn = [&](const std::string&, const std::string& message) {
+  const auto warn = [&](ErrorKind, const std::string& message) {
     log_warning("{}: {}", scene_->name, message);
   };
   guarded(
-      "output",
       [&] {
         write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(),
                    frame.results().surface_mask(), static_cast<float>(scene_->exposure));

@@ -28,7 +28,7 @@ struct Captions {
 Captions captions_of(const std::vector<CaseResult>& cases);
 
 // Writes to out/images/<scene>/, every case as soon as it is measured: what is on the disk survives whatever
-// a later case does. Nothing here throws but Error(device).
+// a later case does. Nothing here throws but Error(device_lost).
 class SceneImages {
  public:
   // `earlier`: cases of the scene that another process has measured. Notes exposure and contact sheet in

@@ -39,7 +39,7 @@ TEST(ErrorsOfACase, NameEveryKindOfThem) {
   c.accuracy = accuracy_over_seeds({{0, e}}, {});
   EXPECT_THAT(errors_of(c), testing::HasSubstr("bias undefined"));
   c.status = Status::failed;
-  c.error = CaseError{"case_failed", "it crashed"};
+  c.error = CaseError{ErrorKind::case_failed, "it crashed"};
   EXPECT_EQ(errors_of(c), "it crashed");
 }
 

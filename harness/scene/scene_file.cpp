@@ -112,8 +112,8 @@ void load_asset(const JsonDocument& document, const SceneOptions& options, doubl
     const std::string where = options.assets_dir.empty()
                                   ? "no assets folder was given (--assets DIR or VSGLBENCH_ASSETS)"
                                   : fmt::format("{} does not hold it", options.assets_dir.string());
-    throw AssetMissing(fmt::format("scene {} needs {}; {}; to get it: {}", root.at("name").get<std::string>(),
-                                   file, where, root.at("get_it").get<std::string>()));
+    throw fail(ErrorKind::asset_missing, "scene {} needs {}; {}; to get it: {}",
+               root.at("name").get<std::string>(), file, where, root.at("get_it").get<std::string>());
   }
   load_gltf(path, unit, scene);
 }

@@ -115,7 +115,7 @@ std::vector<StabilityCell> Trial::run(const HardCase& hard_case, const Stability
     }
     return cells;
   } catch (const Error& e) {
-    if (e.kind() == ErrorKind::device) throw;
+    if (e.kind() == ErrorKind::device_lost) throw;
     Judgement verdict;
     verdict.bad(fmt::format("threw \"{}\"", e.what()));
     return {verdict.cell(hard_case.name, row.name, "-")};

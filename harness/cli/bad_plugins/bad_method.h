@@ -5,19 +5,21 @@
 
 namespace vsglbench {
 
-// Makes black lights, and does `harm` while it records its second frame's generation.
+// Makes black lights, and does `harm` while it records the generation of one frame: the second, or that of
+// its parameter `frame`.
 class BadMethod : public Method {
  public:
-  explicit BadMethod(void (*harm)()) : harm_(harm) {}
+  BadMethod(void (*harm)(), const Json& parameters) : harm_(harm), frame_(parameters.at("frame")) {}
   LightKind kind() const override { return LightKind::vsgl; }
   bool uses_importance() const override { return false; }
   void generate(Steps& steps, const Field&, const LightTarget& target) override {
-    if (++calls_ == 2) harm_();
+    if (++calls_ == frame_) harm_();
     steps.pass("clear", [&] { steps.recorder().fill(*target.buffer, 0); });
   }
 
  private:
   void (*harm_)();
+  const int frame_;
   int calls_ = 0;
 };
 
@@ -49,7 +51,11 @@ inline void dispatch_on_texels(Recorder& recorder, const Kernel& kernel, const F
 
 inline MethodInfo bad_method(const char* summary,
                              std::unique_ptr<Method> (*create)(MethodContext&, const Json&)) {
-  return {.summary = summary, .source = "-", .create = create};
+  return {
+      .summary = summary,
+      .source = "-",
+      .parameters = {{.name = "frame", .default_value = 2, .description = "-", .minimum = 1, .maximum = 9}},
+      .create = create};
 }
 
 }  // namespace vsglbench
