@@ -5,7 +5,7 @@
 #include <glslang/build_info.h>
 
 #include <chrono>
-#include <regex>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -80,9 +80,9 @@ EShLanguage stage_of(const fs::path& path) {
 
 // glslang's log starts "ERROR: FILE:LINE: what"; only the first error is news.
 [[noreturn]] void report(const fs::path& path, const std::string& log) {
-  std::smatch match;
-  static const std::regex error("ERROR: ([^\n]*)");
-  std::string what = std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
+  constexpr std::string_view kError = "ERROR: ";
+  const size_t error = log.find(kError), first = error == std::string::npos ? 0 : error + kError.size();
+  std::string what = log.substr(first, log.find('\n', first) - first);
   what.resize(what.find_last_not_of(' ') + 1);
   // An error in an include names that file; the kernel it belongs to goes first.
   if (what.starts_with(path.string())) throw Error(ErrorKind::plugin, what);
