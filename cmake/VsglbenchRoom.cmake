@@ -4,10 +4,17 @@
 # program per kind of test. GPU_TESTS carry the CTest label `gpu` (lavapipe counts), SLOW_TESTS
 # `gpu-slow`, which both `-L gpu` and `-L slow` match. PUBLIC_LIBRARY: a shared one, installed with its headers, that plugins link too.
 function(vsglbench_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers
+                         $<$<BOOL:${VSGLBENCH_WERROR}>:-Werror>)
   if(VSGLBENCH_SANITIZE)
-    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
-    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+    # vptr: glslang has no RTTI. Uninitialised: GCC's false alarms in the standard library's own code.
+    set(sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr -fno-sanitize-recover=all)
+    if(VSGLBENCH_FUZZ)
+      list(APPEND sanitizers -fsanitize=fuzzer-no-link)
+    endif()
+    target_compile_options(${target} PUBLIC ${sanitizers} -fno-omit-frame-pointer
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    target_link_options(${target} PUBLIC ${sanitizers})
   endif()
 endfunction()
 

@@ -170,9 +170,7 @@ class SchemaChecker {
       } else if (v.is_string() && keyword == "minLength") {
         if (v.get<std::string>().size() < rule.get<size_t>()) report_(at, "is empty or too short");
       } else if (v.is_string() && keyword == "pattern") {
-        if (!std::regex_search(v.get<std::string>(), std::regex(rule.get<std::string>()))) {
-          report_(at, fmt::format("'{}' does not match {}", v.get<std::string>(), rule.get<std::string>()));
-        }
+        check_pattern(v.get<std::string>(), rule.get<std::string>(), at);
       } else if (v.is_array() && keyword == "items") {
         for (size_t i = 0; i < v.size(); ++i) check(v[i], rule, fmt::format("{}/{}", at, i));
       } else if (!is_known(keyword)) {
@@ -238,6 +236,15 @@ class SchemaChecker {
       first = false;
     }
     for (const auto& [p, m] : best) report_(p, m);
+  }
+  // The library's search recurses at each character.
+  void check_pattern(const std::string& text, const std::string& pattern, const std::string& at) {
+    constexpr size_t kLongest = 4096;
+    if (text.size() > kLongest) {
+      report_(at, fmt::format("has {} bytes but may have {}", text.size(), kLongest));
+    } else if (!std::regex_search(text, std::regex(pattern))) {
+      report_(at, fmt::format("'{}' does not match {}", text, pattern));
+    }
   }
   void check_bound(double v, const std::string& keyword, double bound, const std::string& at) {
     if (keyword == "minimum" && !(v >= bound)) report_(at, fmt::format("{} must be at least {}", v, bound));

@@ -47,7 +47,7 @@ RadixSort::RadixSort(MethodContext& context, RadixVariant variant)
   const bool serial = variant == RadixVariant::serial;
   const ShaderDefines defines = serial ? ShaderDefines{{"LANES", std::to_string(lanes_)}} : ShaderDefines{};
   ShaderDefines index_defines = defines;
-  index_defines["INDEX_PAYLOAD"] = "1";
+  index_defines.emplace("INDEX_PAYLOAD", "1");
   const std::string prefix = serial ? "radix_serial_" : "radix_tile_";
   count_ = &context.shared_kernel(prefix + "count.comp", defines);
   totals_ = &context.shared_kernel(prefix + (serial ? "totals.comp" : "rows.comp"), defines);
