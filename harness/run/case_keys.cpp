@@ -52,8 +52,8 @@ CaseKey count(const Row& row, uint32_t FrameParameters::*field, uint32_t minimum
 
 CaseKey number(const Row& row, float FrameParameters::*field, double maximum) {
   CaseKey key = key_of(row);
-  const float value = FrameParameters().*field;
-  key.default_value = value == std::floor(value) ? Json(static_cast<int64_t>(value)) : Json(value);
+  const float initial = FrameParameters().*field;
+  key.default_value = initial == std::floor(initial) ? Json(static_cast<int64_t>(initial)) : Json(initial);
   key.schema = {{"type", "number"}, {"minimum", 0}, {"maximum", maximum}};
   key.values = "0 or more";
   key.read = [=](const Json& value, FrameParameters* frame) {
