@@ -142,7 +142,7 @@ std::string plot_script(const Plot& plot, PlotFormat format) {
       fmt::format("set terminal {} size {},{} enhanced font 'DejaVu Sans,{}' background rgb 'white'\n",
                   format == PlotFormat::svg ? "svg" : "pngcairo", plot.width, plot.height,
                   format == PlotFormat::svg ? 15 : 11);
-  out += "set encoding utf8\nset grid lc rgb '#dddddd' lw 1 dashtype solid\nset border lc rgb '#555555'\n";
+  out += "set encoding utf8\nset grid lt 1 lc rgb '#dddddd' lw 1\nset border lc rgb '#555555'\n";
   out += "set key outside right top vertical Left reverse noenhanced samplen 3 spacing 1.2\n";
   out += fmt::format("set title {} noenhanced\n", quoted(title.fit(plot.title, width)));
   out += axis_commands(plot, 0) + axis_commands(plot, 1);

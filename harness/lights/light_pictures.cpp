@@ -281,8 +281,10 @@ Bitmap draw_on_rsm(const LightSet& lights, const View& light, const std::vector<
   if (!lights.shapes.clusters.empty()) draw_borders(picture, lights.shapes.clusters, magnifier);
   Canvas canvas(picture);
   draw_squares(canvas, lights.shapes.squares, magnifier);
-  for (const glm::dvec2& point : points_of(lights, light))
+  for (const glm::dvec2& point : points_of(lights, light)) {
+    canvas.fill_disk(magnifier.scale * point, 3.2, {glm::u8vec3(0), 0.7f});  // a rim, on what is bright
     canvas.fill_disk(magnifier.scale * point, 2.2, {kPoint, 1});
+  }
   return framed(canvas.bitmap(), captions, rsm_legend(lights, coverage));
 }
 
