@@ -7,7 +7,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
+#include "figure/gnuplot.h"
 #include "gpu/device.h"
+#include "image/font.h"
 #include "method/registry.h"
 #include "report/environment.h"
 
@@ -86,6 +88,21 @@ void examine_methods() {
   }
 }
 
+// Both cost pictures only.
+void examine_drawing() {
+  try {
+    const Font font(12);
+    fmt::print("font        DejaVu Sans\n");
+  } catch (const Error& e) {
+    fmt::print("font        missing: {}; contact sheets, `lights` and `figure` need it\n", e.what());
+  }
+  try {
+    fmt::print("gnuplot     {}\n", Gnuplot().version());
+  } catch (const Error& e) {
+    fmt::print("gnuplot     missing: {}; `figure` needs it\n", e.what());
+  }
+}
+
 void examine_cache() {
   try {
     ensure_writable_directory(cache_directory());
@@ -101,6 +118,7 @@ void examine() {
   const bool complete = examine_data();
   examine_methods();
   examine_cache();
+  examine_drawing();
   std::fflush(stdout);
   if (!usable) throw fail(ErrorKind::device, "no usable device; what each lacks is listed above");
   if (!complete) throw fail(ErrorKind::config, "the programme's data are incomplete, as listed above");

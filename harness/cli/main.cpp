@@ -14,6 +14,7 @@
 #include "base/nearest.h"
 #include "base/printable.h"
 #include "cli/command.h"
+#include "image/theme.h"
 #include "method/plugin.h"
 #include "method/registry.h"
 #include "report/environment.h"
@@ -73,11 +74,16 @@ int main(int argc, char** argv) {
   std::string plugin_path;
   app.add_option("--plugin-path", plugin_path,
                  "folders of method plugins, separated by ':', searched before $VSGLBENCH_PLUGINS");
+  std::string theme = theme_names().front();
+  app.add_option("--theme", theme, "of contact sheets, error maps and pictures of lights; light is for print")
+      ->check(CLI::IsMember(theme_names()))
+      ->capture_default_str();
   app.set_version_flag("--version", fmt::format("vsglbench {} (commit {}, plugin ABI {})", VSGLBENCH_VERSION,
                                                 build_git().commit, plugin_abi));
   app.parse_complete_callback([&] {
     set_log_level(verbose ? LogLevel::verbose : quiet ? LogLevel::quiet : LogLevel::normal);
     set_plugin_path(plugin_path);
+    set_theme(theme);
   });
   CommandResult result;
   add_run_command(app, arguments, &result);

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
@@ -64,23 +65,22 @@ std::vector<float> read_rows(const SgOptions& o, const SgQuestion& q) {
 // cosine,sharpness,value,exact,abs_error; more than one result: name,exact_name of each.
 std::string to_csv(const SgQuestion& q, const std::vector<float>& rows, const SgAnswers& a) {
   const SgFunctionInfo& info = q.info();
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
-  fmt::format_to(to, "{}", fmt::join(info.columns, ","));
-  for (const auto& r : info.results) {
-    fmt::format_to(to, ",{},{}", r, r == "value" ? "exact" : "exact_" + r);
-  }
-  fmt::format_to(to, ",{}\n", error_name(info.error));
+  std::vector<std::string> cells = info.columns;
+  for (const auto& r : info.results) cells.insert(cells.end(), {r, r == "value" ? "exact" : "exact_" + r});
+  cells.emplace_back(error_name(info.error));
+  std::string text = csv_row(cells);
   const size_t columns = info.columns.size();
   for (size_t i = 0; i < a.error.size(); ++i) {
-    const auto row = rows.begin() + static_cast<ptrdiff_t>(i * columns);
-    fmt::format_to(to, "{}", fmt::join(row, row + static_cast<ptrdiff_t>(columns), ","));
+    cells.clear();
+    for (size_t k = i * columns; k < (i + 1) * columns; ++k) cells.push_back(fmt::format("{}", rows[k]));
     for (size_t k = i * a.results; k < (i + 1) * a.results; ++k) {
-      fmt::format_to(to, ",{},{}", a.values[k], a.exact[k]);
+      cells.push_back(fmt::format("{}", a.values[k]));
+      cells.push_back(fmt::format("{}", a.exact[k]));
     }
-    fmt::format_to(to, ",{:.3g}\n", a.error[i]);
+    cells.push_back(fmt::format("{:.3g}", a.error[i]));
+    text += csv_row(cells);
   }
-  return fmt::to_string(out);
+  return text;
 }
 
 std::vector<float> row_of(const SgQuestion& q, const std::vector<float>& rows, size_t i) {

@@ -104,12 +104,13 @@ void check_method(const JsonDocument& document) {
 void replace_size(const Json& schema, const std::string& key, uint32_t size, Json* config) {
   if (size == 0) return;
   const std::string name = config->at("figure");
-  if (!config->contains(key)) {
-    throw fail(ErrorKind::usage, "--{} means nothing to {}: it has no image", key, name);
-  }
-  const auto most = schema.at("properties").at(key).at("maximum").get<uint32_t>();
+  const Json& limits = schema.at("properties").at(key);
+  const auto least = limits.at("minimum").get<uint32_t>(), most = limits.at("maximum").get<uint32_t>();
   if (size > most) {
     throw fail(ErrorKind::usage, "--{} {} is too large for {}; make it at most {}", key, size, name, most);
+  }
+  if (size < least) {
+    throw fail(ErrorKind::usage, "--{} {} is too small for {}; make it at least {}", key, size, name, least);
   }
   (*config)[key] = size;
 }

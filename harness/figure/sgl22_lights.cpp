@@ -261,13 +261,14 @@ FigureOutput lights(const FigureInputs& inputs) {
   const std::string title = fmt::format("{}, {} VSGLs", scene.name, full.lights);
   const std::string size = fmt::format("{}×{}", c["width"].get<int>(), c["height"].get<int>());
   const std::string small = fmt::format("{}×{}", reference.width, reference.height);
-  Plot plot{
-      .title = title + ": time and error of the diffuse models",
-      .x = {fmt::format("SMAPE against quadrature at {} / %", small), true},
-      .y = {fmt::format("shade pass at {} / ms", size), false, true},
-      .notes = {fmt::format("{}; medians of {} interleaved repetitions. Both lobes, diffuse and specular.",
-                            inputs.device.info().name, c["repetitions"].dump())}};
+  Plot plot{.title = title + ": time and error of the diffuse models",
+            .x = {fmt::format("SMAPE against quadrature at {} / %", small), true},
+            .y = {fmt::format("shade pass at {} / ms", size), false, true},
+            .notes = {fmt::format("{}; medians of {} interleaved repetitions and their 95 % intervals. Both "
+                                  "lobes, diffuse and specular.",
+                                  inputs.device.info().name, c["repetitions"].dump())}};
   std::vector<double> smape;
+  std::vector<std::string> more;
   for (size_t k = 0; k < kModels; ++k) {
     const Summary times = summarize(full.times.of(static_cast<exact::DiffuseModel>(k)));
     smape.push_back(measure_errors(images.images[k], reference, images.mask).smape);
@@ -277,11 +278,17 @@ FigureOutput lights(const FigureInputs& inputs) {
               times.median, times.q1, times.q3, times.ci95.lo, times.ci95.hi,
               static_cast<double>(times.samples.size()), static_cast<double>(full.splotches[k]),
               static_cast<double>(reference.width), static_cast<double>(reference.height), smape[k]);
-    if (smape[k] > 0) plot.curves.push_back({model, {{smape[k], times.median}}, CurveStyle::points});
+    if (smape[k] > 0) {
+      plot.curves.push_back({.name = model,
+                             .points = {{smape[k], times.median}},
+                             .style = CurveStyle::points,
+                             .errors = {{{smape[k], times.ci95.lo}, {smape[k], times.ci95.hi}}}});
+    }
+    more.push_back(fmt::format("shade {:.3g} ms at {}", times.median, size));
   }
   out.tables = {table};
   out.plots = {{"sgl22-4", plot}};
-  out.images = {{"sgl22-4", picture(images, title, "diffuse integral by quadrature")}};
+  add_picture(&out, "sgl22-4", images, title, "diffuse integral by quadrature", more);
   out.claims = claims_of(full, smape);
   return out;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/csv.h"
+
 namespace vsglbench {
 namespace {
 
@@ -88,16 +90,15 @@ std::string to_csv(const Json& list) {
       if (std::find(columns.begin(), columns.end(), pointer) == columns.end()) columns.push_back(pointer);
     }
   }
-  std::string text;
-  for (const auto& pointer : columns) text += (text.empty() ? "" : ",") + column_of(pointer);
-  text += "\n";
+  std::vector<std::string> cells;
+  for (const auto& pointer : columns) cells.push_back(column_of(pointer));
+  std::string text = csv_row(cells);
   for (const Json& row : rows) {
     for (size_t i = 0; i < columns.size(); ++i) {
       const auto cell = row.find(columns[i]);
-      if (i > 0) text += ",";
-      if (cell != row.end()) text += cell->is_string() ? cell->get<std::string>() : cell->dump();
+      cells[i] = cell == row.end() ? "" : cell->is_string() ? cell->get<std::string>() : cell->dump();
     }
-    text += "\n";
+    text += csv_row(cells);
   }
   return text;
 }

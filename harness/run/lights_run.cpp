@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/csv.h"
 #include "base/file.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -170,9 +171,9 @@ std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed
   for (const LightsResult& r : results) {
     const auto& c = r.coverage;
     const auto of = [&](double Coverage::*value) { return c ? std::optional((*c).*value) : std::nullopt; };
-    text += fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", r.id, seed, name(r.status), r.lights, r.empty,
-                        cell(of(&Coverage::overlap)), cell(of(&Coverage::gap)),
-                        cell(c ? c->pdf_overlap : std::nullopt), cell(c ? c->pdf_gap : std::nullopt));
+    text += csv_row(r.id, seed, name(r.status), r.lights, r.empty, cell(of(&Coverage::overlap)),
+                    cell(of(&Coverage::gap)), cell(c ? c->pdf_overlap : std::nullopt),
+                    cell(c ? c->pdf_gap : std::nullopt));
   }
   return text;
 }
