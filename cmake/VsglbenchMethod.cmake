@@ -53,6 +53,9 @@ function(vsglbench_method name)
   file(CREATE_LINK ${kernels} ${plugins}/${name} SYMBOLIC)
   add_test(NAME conformance.${name} COMMAND ${programme} check-method $<TARGET_FILE:${target}>)
   set_tests_properties(conformance.${name} PROPERTIES LABELS gpu TIMEOUT 900)
+  if(VSGLBENCH_SANITIZE)  # as in VsglbenchRoom.cmake
+    set_tests_properties(conformance.${name} PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
+  endif()
   if(NOT METHOD_NOT_INSTALLED)
     install(TARGETS ${target} LIBRARY DESTINATION lib/vsglbench/plugins)
     install(DIRECTORY ./ DESTINATION lib/vsglbench/plugins/${name}

@@ -198,7 +198,8 @@ bool is_hidden(const LightMark& mark, const CameraView& camera, const glm::vec2&
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       const glm::ivec2 at = glm::clamp(pixel + glm::ivec2(x, y), glm::ivec2(0), last);
-      const glm::vec4& surface = camera.position[static_cast<size_t>(at.y * (last.x + 1) + at.x)];
+      const glm::vec4& surface = camera.position[static_cast<size_t>(at.y) * static_cast<size_t>(last.x + 1) +
+                                                 static_cast<size_t>(at.x)];
       if (!(surface.w > 0) || glm::distance(glm::vec3(surface), camera.view.position) >= allowed)
         return false;
     }
