@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/json.h"
+#include "gpu/pass_id.h"
 #include "image/metrics.h"
 #include "measure/statistics.h"
 #include "measure/stopping.h"
