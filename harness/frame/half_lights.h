@@ -30,7 +30,8 @@ class HalfLights {
  public:
   // As many as the generator makes when asked for `wanted`.
   HalfLights(Stage& stage, const Halves& halves, const LightGenerator& generator, Half half, uint32_t wanted);
-  // Records the passes generate.HALF.*; returns their dispatches. `pdf` may be null where the method uses none.
+  // Records the passes generate.HALF.*; returns their dispatches. `pdf` may be null where the method uses
+  // none.
   unsigned generate(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift) const;
 
   const LightGenerator& generator() const { return generator_; }

@@ -17,9 +17,8 @@ Halves::Halves(Stage& stage, uint32_t width, uint32_t height, uint32_t rsm) : st
 
 void Halves::draw(Recorder& recorder) const {
   for (const Half half : {Half::gbuffer, Half::rsm}) {
-    recorder.pass({PassStage::draw, half, ""}, [&] {
-      stage_.geometry.draw(recorder, of(half).view, of(half).buffer, *of(half).targets);
-    });
+    recorder.pass({PassStage::draw, half, ""},
+                  [&] { stage_.geometry.draw(recorder, of(half).view, of(half).buffer, *of(half).targets); });
   }
 }
 

@@ -29,7 +29,8 @@ ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const LightGe
   if (p.importance != Importance::own) {
     const LightKind kind = p.importance == Importance::vsgl ? LightKind::vsgl : LightKind::vpl;
     const MethodInfo& info = load_method(find_importance_maker(kind).name, stage.device.info());
-    other_ = std::make_unique<LightGenerator>(stage, info, resolve_parameters(info, Json::object()), shading_);
+    other_ =
+        std::make_unique<LightGenerator>(stage, info, resolve_parameters(info, Json::object()), shading_);
   }
   const auto wanted = std::clamp<uint64_t>(p.importance_lights, 1, halves.texels(Half::gbuffer));
   lights_.emplace(stage, halves, other_ ? *other_ : own, Half::gbuffer, static_cast<uint32_t>(wanted));

@@ -47,7 +47,8 @@ std::string refusal(Device& device, const Push& push) {
 TEST(RasterPush, ABlockOfAnotherSizeIsRefused) {
   Device device;
   EXPECT_EQ(refusal(device, gpu::DrawPush{}), "");
-  EXPECT_NE(refusal(device, Longer{}).find("gbuffer.frag: its push-constant block has 112 bytes, and the host pushes 116"),
+  EXPECT_NE(refusal(device, Longer{})
+                .find("gbuffer.frag: its push-constant block has 112 bytes, and the host pushes 116"),
             std::string::npos);
   EXPECT_NE(refusal(device, Shorter{}).find("has 112 bytes, and the host pushes 64"), std::string::npos);
 }

@@ -21,9 +21,9 @@ struct ShadingNotes {
 struct BadValues {
   PassId pass;  // that left them
   bool are_lights = true;
-  uint64_t nan = 0, inf = 0;             // of lights: on both halves
-  uint64_t first = 0;                    // index among those of the pass
-  glm::uvec2 texel{0};                   // of the PDF
+  uint64_t nan = 0, inf = 0;  // of lights: on both halves
+  uint64_t first = 0;         // index among those of the pass
+  glm::uvec2 texel{0};        // of the PDF
   // "3 lights with a NaN and 1 with an Inf, the first is light 7 of generate.rsm"
   std::string message() const;
 };

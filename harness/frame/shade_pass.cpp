@@ -62,9 +62,8 @@ const Buffer& ShadePass::light_texels(Recorder& r) const {
       gpu::Emitter emitter;
       uint32_t count;
     } push{rsm.emitter, lights_.count()};
-    r.dispatch(
-        stage_.kernels.get(frame_kernel("light_texels.comp"), shading_defines(parameters_.shading)),
-        {rsm.maps, lights_.buffer(), texels}, push, groups_for(lights_.count(), 64));
+    r.dispatch(stage_.kernels.get(frame_kernel("light_texels.comp"), shading_defines(parameters_.shading)),
+               {rsm.maps, lights_.buffer(), texels}, push, groups_for(lights_.count(), 64));
   });
   return texels;
 }

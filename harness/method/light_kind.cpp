@@ -6,14 +6,38 @@ namespace vsglbench {
 namespace {
 
 const std::vector<LightKindInfo>& kinds() {
-  static const std::vector<size_t> unused = {offsetof(gpu::Vpl, unused0) / 4, offsetof(gpu::Vpl, unused1) / 4};
-  static const std::vector<LightKindInfo> all = {
-      {LightKind::vsgl, "vsgl", "Vsgl", sizeof(gpu::Vsgl), {}, false, true, {{"LIGHT_VPL", "0"}}, {},
-       "dots: means, disks: sigma"},
-      {LightKind::vpl, "vpl", "Vpl", sizeof(gpu::Vpl), unused, true, false, {{"LIGHT_VPL", "1"}}, {},
-       "dots: lights"},
-      {LightKind::vsl, "vsl", "Vpl", sizeof(gpu::Vpl), unused, true, false, {{"LIGHT_VPL", "1"}},
-       {{"LIGHT_VSL", "1"}}, "dots: lights, disks: their radius"}};
+  static const std::vector<size_t> unused = {offsetof(gpu::Vpl, unused0) / 4,
+                                             offsetof(gpu::Vpl, unused1) / 4};
+  static const std::vector<LightKindInfo> all = {{LightKind::vsgl,
+                                                  "vsgl",
+                                                  "Vsgl",
+                                                  sizeof(gpu::Vsgl),
+                                                  {},
+                                                  false,
+                                                  true,
+                                                  {{"LIGHT_VPL", "0"}},
+                                                  {},
+                                                  "dots: means, disks: sigma"},
+                                                 {LightKind::vpl,
+                                                  "vpl",
+                                                  "Vpl",
+                                                  sizeof(gpu::Vpl),
+                                                  unused,
+                                                  true,
+                                                  false,
+                                                  {{"LIGHT_VPL", "1"}},
+                                                  {},
+                                                  "dots: lights"},
+                                                 {LightKind::vsl,
+                                                  "vsl",
+                                                  "Vpl",
+                                                  sizeof(gpu::Vpl),
+                                                  unused,
+                                                  true,
+                                                  false,
+                                                  {{"LIGHT_VPL", "1"}},
+                                                  {{"LIGHT_VSL", "1"}},
+                                                  "dots: lights, disks: their radius"}};
   return all;
 }
 

@@ -21,13 +21,15 @@ struct LightKindInfo {
   size_t bytes;        // of a record
   // 32-bit words of a record that nobody reads and a kernel need not write; all others are floats.
   std::vector<size_t> unused;
-  // `power` is the luminance of the incident flux, whatever the surface reflects; else of the reflected power.
+  // `power` is the luminance of the incident flux, whatever the surface reflects; else of the reflected
+  // power.
   bool power_is_incident;
   // A config's shading keys choose how it is shaded; else they are not read.
   bool reads_shading;
-  ShaderDefines record_defines;   // of every kernel that reads its records
-  ShaderDefines shading_defines;  // of shade.comp besides: on the G-buffer, importance takes lights for points
-  const char* marks;              // what pictures of the lights show, in words
+  ShaderDefines record_defines;  // of every kernel that reads its records
+  ShaderDefines
+      shading_defines;  // of shade.comp besides: on the G-buffer, importance takes lights for points
+  const char* marks;    // what pictures of the lights show, in words
 };
 
 std::vector<LightKind> light_kinds();
