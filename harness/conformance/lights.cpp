@@ -54,6 +54,19 @@ void compare_power(Judge& judge, double stated, double carried) {
     judge.found("states a power of {:.6g} W but carries {:.6g} W; expected the same", stated, carried);
 }
 
+// What any light must keep to: of a kind whose record has no rules of its own below.
+template <class Record>
+std::string fault_of(const Record& light) {
+  const LightSummary s = summary_of(light);
+  Judge judge;
+  judge.not_negative("power", s.power);
+  judge.finite("position", s.position);
+  judge.not_negative("variance", s.variance);
+  judge.not_negative("radius", s.radius);
+  compare_power(judge, s.power, s.carried);
+  return judge.fault();
+}
+
 bool unwritten(const LightRecords& lights, size_t i) {
   const size_t stride = light_stride(lights.kind);
   std::vector<uint32_t> words(stride / 4);

@@ -36,12 +36,13 @@ std::optional<Half> half_of(const PassId& pass) {
 
 FrameOutputs::NamedBuffer named(const FrameParts& parts, const PassId& pass, const Buffer& buffer) {
   const auto is = [&](const Buffer& b) { return &b == &buffer; };
-  if (pass.stage == PassStage::importance && pass.half && is(parts.importance->pdf(*pass.half)))
+  const bool weighs = pass.stage == PassStage::importance && parts.importance;
+  if (weighs && pass.half && is(parts.importance->pdf(*pass.half)))
     return {fmt::format("pdf.{}", half_name(*pass.half)), parts.importance->pdf_bytes(*pass.half)};
-  if (pass.stage == PassStage::generate && pass.half) {
-    const HalfLights& lights = *parts.lights_on(*pass.half);
-    if (is(lights.buffer())) return {fmt::format("lights.{}", half_name(*pass.half)), lights.bytes(), true};
-    for (const auto& [name, scratch] : lights.generator().context().scratch_buffers()) {
+  const bool generates = pass.stage == PassStage::generate && pass.half;
+  if (const HalfLights* lights = generates ? parts.lights_on(*pass.half) : nullptr) {
+    if (is(lights->buffer())) return {fmt::format("lights.{}", half_name(*pass.half)), lights->bytes(), true};
+    for (const auto& [name, scratch] : lights->generator().context().scratch_buffers()) {
       if (is(*scratch.buffer)) return {name, scratch.bytes};
     }
   }

@@ -275,32 +275,6 @@ TEST(PassCheckFrame, ANanThatIsGoneByTheEndIsNamedByPassAndTexel) {
   EXPECT_FALSE(ordinary->results().bad_values());
 }
 
-// Lights that are finite, in whose light every texel of the RSM is worth a NaN or an Inf: no light is drawn
-// from such a PDF, and the image is black and finite.
-TEST(PassCheckFrame, AnImportanceThatIsNoNumberIsNamedByPassAndTexel) {
-  const Scene scene = cornell();
-  Session session(scene);
-  MethodInfo info{.create = [](MethodContext& context, const Json&) {
-    return make_light_kernel(context, "nan_importance.comp", LightKind::vsgl);
-  }};
-  info.name = "nan-importance";
-  info.folder = data_root() / "harness" / "cli" / "bad_plugins";
-  const auto frame = session.frame(info, checked());
-  frame->render(0);
-  ASSERT_TRUE(frame->bad_output());
-  EXPECT_EQ(frame->bad_output()->pass.name(), "importance.rsm");
-  EXPECT_EQ(frame->bad_output()->buffer, "pdf.rsm");
-  EXPECT_TRUE(frame->bad_output()->texel);
-  const auto bad = frame->results().bad_values();
-  ASSERT_TRUE(bad);
-  EXPECT_FALSE(bad->are_lights);
-  EXPECT_EQ(bad->pass.name(), "importance.rsm");
-  EXPECT_GT(bad->nan, 0u);
-  EXPECT_EQ(bad->texel, *frame->bad_output()->texel);
-  EXPECT_EQ(frame->results().first_bad_pass(), bad->pass);
-  EXPECT_THROW(frame->prepare(0), Error);
-}
-
 // Lights whose flux is no number, and walls whose colour is none.
 TEST(PassCheckFrame, NamesALightAndATexelOfARasterPass) {
   Scene scene = cornell();

@@ -57,6 +57,16 @@ Json fields(const gpu::Vpl& l, const glm::dvec3& origin) {
   return out;
 }
 
+// What any light has: of a kind whose record has no list of its own above.
+template <class Record>
+Json fields(const Record& light, const glm::dvec3& origin) {
+  const LightSummary s = summary_of(light);
+  Json out = {{"position", world(origin, s.position)}, {"power", shortest(s.power)}};
+  if (s.variance > 0) out["sigma"] = shortest(std::sqrt(s.variance));
+  if (s.radius > 0) out["radius"] = shortest(s.radius);
+  return out;
+}
+
 // "/diffuse/axis/0" as "diffuse.axis.0".
 std::string column_of(const std::string& pointer) {
   std::string name = pointer.substr(1);

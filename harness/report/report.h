@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "gpu/pass_id.h"
 #include "image/metrics.h"
 #include "measure/statistics.h"
 #include "measure/stopping.h"
