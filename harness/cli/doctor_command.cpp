@@ -67,7 +67,8 @@ bool examine_devices() {
 bool examine_data() {
   fmt::print("data        {}\n", data_root().string());
   bool complete = true;
-  for (const char* folder : {"harness/shaders", "harness/frame", "methods/_template", "scenes", "configs"}) {
+  for (const char* folder : {"harness/shaders", "harness/frame", "methods/_template",
+                             "methods/_template_workgroup", "scenes", "configs"}) {
     std::error_code ec;
     if (std::filesystem::is_directory(data_root() / folder, ec)) continue;
     fmt::print("  missing   {}; set VSGLBENCH_ROOT to the source or installed folder\n", folder);

@@ -96,7 +96,8 @@ void add_figure_command(CLI::App& app, const std::vector<std::string>& argv, Com
                    "seconds that one step, such as a frame, may take before the figure is stopped")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] { draw(*options, argv); });
 }
 

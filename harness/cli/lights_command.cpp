@@ -82,7 +82,8 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
       ->check(CLI::IsMember({"json", "csv"}))
       ->capture_default_str();
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] {
     options->config = config_path(*config);
     options->csv = *format == "csv";

@@ -70,9 +70,12 @@ Json list_all_devices() {
   Json out = Json::array();
   for (const auto& d : list_devices()) {
     out.push_back({{"name", d.name},
-                   {"summary", fmt::format("{}, {} {}, Vulkan {}, {} lanes a subgroup", d.type, d.driver,
-                                           d.driver_version, d.api, d.subgroup_size)},
+                   {"summary", fmt::format("index {}, {}, {} {}, Vulkan {}, {} lanes a subgroup, UUID {}{}{}",
+                                           d.index, d.type, d.driver, d.driver_version, d.api,
+                                           d.subgroup_size, d.uuid, d.pci.empty() ? "" : ", PCI ", d.pci)},
                    {"index", d.index},
+                   {"uuid", d.uuid},
+                   {"pci", d.pci},
                    {"usable", d.missing.empty()},
                    {"missing", d.missing}});
   }

@@ -90,7 +90,8 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
           "of this key for any method; may come again (keys: vsglbench list keys)")
       ->allow_extra_args(false);
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command
       ->add_option(
           "--time-limit", options->time_limit_s,

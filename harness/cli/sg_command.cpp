@@ -136,7 +136,8 @@ void add_sg_command(CLI::App& app, CommandResult* result) {
                    "this many random rows over the whole domain, instead of a CSV")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
   command->add_option("--seed", options->seed, "of the random rows (default 1)");
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] { result->exit_code = evaluate(*options); });
 }
 

@@ -15,7 +15,7 @@ struct FigureOrder {
   Json config;                                   // checked
   std::filesystem::path assets;                  // where downloaded scenes lie
   std::filesystem::path folder;                  // for the files; exists
-  std::string device;                            // index or part of a name; empty: the first usable
+  std::string device;                            // as in select_device()
   double silence_s = 600;                        // that one step may take
   std::function<void(const DeviceInfo&)> admit;  // throws for what is too large for the device; may be empty
 };

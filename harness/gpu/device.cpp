@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include "base/error.h"
@@ -133,27 +132,10 @@ VkBool32 Device::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtils
 void Device::pick(const std::string& select) {
   const auto devices = physical_devices(instance_);
   std::vector<DeviceInfo> infos;
-  std::vector<std::string> names;
   for (const VkPhysicalDevice device : devices) {
     infos.push_back(describe_device(device, static_cast<uint32_t>(infos.size())));
-    names.push_back(fmt::format("{}: {}", infos.back().index, infos.back().name));
   }
-  if (infos.empty())
-    throw fail(ErrorKind::device, "no Vulkan device; install a driver (mesa-vulkan-drivers)");
-  const bool by_index = !select.empty() && std::all_of(select.begin(), select.end(), ::isdigit);
-  const DeviceInfo* chosen = nullptr;
-  for (const auto& info : infos) {
-    const bool fits = select.empty() ? info.missing.empty()
-                      : by_index     ? std::to_string(info.index) == select
-                                     : info.name.find(select) != std::string::npos;
-    // Without a wish, a GPU goes before a CPU.
-    if (fits && (!chosen || (select.empty() && chosen->type == "cpu" && info.type != "cpu"))) chosen = &info;
-  }
-  if (!chosen && !select.empty()) {
-    throw fail(ErrorKind::device, "no device '{}'; known, by index and name: {}", select,
-               fmt::join(names, ", "));
-  }
-  if (!chosen) chosen = &infos.front();
+  const DeviceInfo* chosen = &select_device(infos, select);
   if (!chosen->missing.empty()) {
     throw fail(ErrorKind::device, "{} lacks {}", chosen->name, fmt::join(chosen->missing, ", "));
   }

@@ -29,7 +29,7 @@ TEST(PluginAbi, TheLayoutsOfSharedTypesAreThoseOfItsNumber) {
   EXPECT_EQ(sizeof(MethodContext), 296u);
   EXPECT_EQ(sizeof(Buffer), 56u);
   EXPECT_EQ(sizeof(Recorder), 104u);
-  EXPECT_EQ(sizeof(DeviceInfo), 256u);
+  EXPECT_EQ(sizeof(DeviceInfo), 320u);
 }
 
 class RegistryTest : public ::testing::Test {

@@ -20,7 +20,7 @@ struct LightsOptions {
   std::filesystem::path out;       // empty: reports/out/<name of the config>/lights
   std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
   std::vector<std::string> cases;  // globs over their ids; empty: all
-  std::string device;              // index or part of a name; empty: the first usable
+  std::string device;              // as in select_device()
   uint32_t seed = 0;
   bool csv = false;  // lights.csv instead of lights.json
   std::vector<std::string> argv;

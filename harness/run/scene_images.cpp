@@ -196,7 +196,7 @@ void SceneImages::write_direct(Frame& frame) {
 
 void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown,
                               const ReferenceInfo& info) {
-  const auto warn = [&](const std::string&, const std::string& message) {
+  const auto warn = [&](ErrorKind, const std::string& message) {
     log_warning("{}: {}", scene_->name, message);
   };
   const auto write_it = [&] {
@@ -210,7 +210,7 @@ void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const Refere
       log_info("contact sheet: {}", (out_ / path).string());
     }
   };
-  guarded("output", write_it, warn);
+  guarded(write_it, warn);
 }
 
 }  // namespace vsglbench
