@@ -103,13 +103,12 @@ TEST(LightPictures, DisksHaveTheirProjectedSigmaAndRingsAreHidden) {
 // 2000 lights on one wall, the first 96 the strongest: the others are dots alone, and no disk covers them.
 TEST(LightPictures, OfManyLightsTheStrongestAloneHaveDisks) {
   LightSet set = one_square();
-  gpu::Vsgl light = set.vsgls[0];
-  set.vsgls.clear();
-  for (int i = 0; i < 2000; ++i) {
-    light.power = i < 96 ? 2 : 1;
-    light.mean.x = i < 96 ? 0.3f : -0.3f;
-    set.vsgls.push_back(light);
+  std::vector<gpu::Vsgl> lights(2000, set.lights.at<gpu::Vsgl>(0));
+  for (size_t i = 0; i < lights.size(); ++i) {
+    lights[i].power = i < 96 ? 2 : 1;
+    lights[i].mean.x = i < 96 ? 0.3f : -0.3f;
   }
+  set.lights = records_of(LightKind::vsgl, lights);
   const Bitmap b = draw_in_scene(set, looking_at_a_wall(2), {});
   const uint32_t y = 24 + 360, strong = 12 + 640 + 60, weak = 12 + 640 - 60;
   const glm::u8vec3 wall = pixel(b, 12 + 640, y);
