@@ -35,8 +35,8 @@ TEST(FiguresOfACase, NameErrorsAndTime) {
   Errors e{24.84, 0.01551, 0.3, 0.5, -0.1993, 9, 21.02, 0.5, 0.1234, 0.5};
   c.accuracy = accuracy_over_seeds({{0, e}}, {});
   EXPECT_EQ(figures_of(c), "SMAPE 24.8 %   lit 21 %   RMSE 0.0155\nbias -19.9 %   FLIP 0.123");
-  c.frame =
-      frame_timing({2449, 2449}, {{"gbuffer", summarize({9, 9})}, {"shade", summarize({41.52, 41.52})}});
+  c.frame = frame_timing({2449, 2449}, {{{PassStage::draw, Half::gbuffer, ""}, summarize({9, 9})},
+                                        {{PassStage::shade, std::nullopt, ""}, summarize({41.52, 41.52})}});
   EXPECT_THAT(figures_of(c), testing::EndsWith("FLIP 0.123   method 41.5 ms"));
   c.frame->method.reset();
   EXPECT_THAT(figures_of(c), testing::EndsWith("FLIP 0.123   frame 2449 ms"));
