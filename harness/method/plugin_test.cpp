@@ -23,10 +23,10 @@ TEST(PluginAbi, TheLayoutsOfSharedTypesAreThoseOfItsNumber) {
   EXPECT_EQ(sizeof(gpu::Emitter), 88u);
   EXPECT_EQ(sizeof(Field), 144u);
   EXPECT_EQ(sizeof(LightTarget), 24u);
-  EXPECT_EQ(sizeof(Steps), 40u);
+  EXPECT_EQ(sizeof(Steps), 16u);
   EXPECT_EQ(sizeof(ParameterInfo), 120u);
-  EXPECT_EQ(sizeof(MethodInfo), 304u);
-  EXPECT_EQ(sizeof(MethodContext), 296u);
+  EXPECT_EQ(sizeof(MethodInfo), 336u);
+  EXPECT_EQ(sizeof(MethodContext), 248u);
   EXPECT_EQ(sizeof(Buffer), 56u);
   EXPECT_EQ(sizeof(Recorder), 104u);
   EXPECT_EQ(sizeof(DeviceInfo), 320u);
