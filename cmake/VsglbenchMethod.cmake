@@ -45,6 +45,9 @@ function(vsglbench_method name)
     set_property(GLOBAL APPEND PROPERTY VSGLBENCH_METHODS ${target})
   else()
     target_link_libraries(${target} PRIVATE vsglbench::vsglbench_method)
+    # The programme that opens the plugin holds its libraries already. A path of its own would be unsafe where a library
+    # of the same name stands in a folder of the system, too.
+    set_target_properties(${target} PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
     set(programme $<TARGET_FILE:vsglbench::vsglbench>)
   endif()
   vsglbench_embed_kernels(${target} ${CMAKE_CURRENT_SOURCE_DIR})
@@ -53,6 +56,9 @@ function(vsglbench_method name)
   file(CREATE_LINK ${kernels} ${plugins}/${name} SYMBOLIC)
   add_test(NAME conformance.${name} COMMAND ${programme} check-method $<TARGET_FILE:${target}>)
   set_tests_properties(conformance.${name} PROPERTIES LABELS gpu TIMEOUT 900)
+  if(VSGLBENCH_SANITIZE)  # as in VsglbenchRoom.cmake
+    set_tests_properties(conformance.${name} PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
+  endif()
   if(NOT METHOD_NOT_INSTALLED)
     install(TARGETS ${target} LIBRARY DESTINATION lib/vsglbench/plugins)
     install(DIRECTORY ./ DESTINATION lib/vsglbench/plugins/${name}

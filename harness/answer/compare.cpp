@@ -64,9 +64,9 @@ double larger_noise(const Report& base, const Report& now, const std::string& sc
 }
 
 // The A/A pair's time that a pass is part of.
-std::string column_of(const std::string& pass) {
-  if (pass == "gbuffer" || pass == "rsm") return "frame";
-  return pass.starts_with("generate.") ? "generate" : "method";
+std::string column_of(const PassId& pass) {
+  if (pass.stage == PassStage::draw) return "frame";
+  return pass.stage == PassStage::generate ? "generate" : "method";
 }
 
 struct Pair {
@@ -187,10 +187,10 @@ void compare_passes(const Report& base, const Report& now, const std::vector<Pai
       unit = std::log(n->median / b->median);
     }
     for (const PassTiming& pass : p.base->passes) {
-      const auto at = std::ranges::find(p.now->passes, pass.name, &PassTiming::name);
+      const auto at = std::ranges::find(p.now->passes, pass.pass, &PassTiming::pass);
       if (at == p.now->passes.end() || !(pass.ms.median > 0) || !(at->ms.median > 0)) continue;
-      logs[pass.name].push_back(std::log(at->ms.median / pass.ms.median) - unit);
-      noise[pass.name].push_back(larger_noise(base, now, p.base->scene, column_of(pass.name)));
+      logs[pass.pass.name()].push_back(std::log(at->ms.median / pass.ms.median) - unit);
+      noise[pass.pass.name()].push_back(larger_noise(base, now, p.base->scene, column_of(pass.pass)));
     }
   }
   for (const auto& [pass, values] : logs) {

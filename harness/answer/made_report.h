@@ -44,7 +44,7 @@ class MadeReport {
         samples.push_back(ms * scatter(time_noise_));
         span[k] += samples.back();
       }
-      c.passes.push_back({name, summarize(samples)});
+      c.passes.push_back({parse_pass_name(name), summarize(samples)});
     }
     c.frame = frame_timing(span, c.passes);
     for (uint64_t s = 0; s < seeds_; ++s) {

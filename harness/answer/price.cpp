@@ -20,7 +20,9 @@ void sort_values(std::vector<std::pair<Json, size_t>>* values) {
 
 std::map<std::string, double> medians(const CaseResult& c) {
   std::map<std::string, double> out;
-  for (const PassTiming& pass : c.passes) out[pass.name] = pass.ms.median;
+  for (const PassTiming& p : c.passes) {
+    if (p.pass.stage != PassStage::draw) out[p.pass.name()] = p.ms.median;
+  }
   return out;
 }
 
@@ -29,9 +31,7 @@ void find_pass(const CaseResult& before, const CaseResult& after, Price* price) 
   const auto a = medians(before), b = medians(after);
   std::set<std::string> names;
   for (const auto* passes : {&a, &b}) {
-    for (const auto& [name, ms] : *passes) {
-      if (name != "gbuffer" && name != "rsm") names.insert(name);
-    }
+    for (const auto& [name, ms] : *passes) names.insert(name);
   }
   const auto of = [](const auto& passes, const std::string& name) {
     const auto at = passes.find(name);

@@ -162,9 +162,7 @@ class SchemaChecker {
       } else if (keyword == "oneOf" || keyword == "anyOf") {
         check_alternatives(v, rule, at);
       } else if (v.is_object() && keyword == "required") {
-        for (const auto& k : rule) {
-          if (!v.contains(k.get<std::string>())) report_(at, fmt::format("lacks '{}'", k.get<std::string>()));
-        }
+        for (const auto& k : rule) check_required(v, schema, k.get<std::string>(), at);
       } else if (v.is_number() && is_bound(keyword)) {
         check_bound(v.get<double>(), keyword, rule.get<double>(), at);
       } else if (keyword == "minItems" || keyword == "minProperties" || keyword == "maxItems") {
@@ -172,9 +170,7 @@ class SchemaChecker {
       } else if (v.is_string() && keyword == "minLength") {
         if (v.get<std::string>().size() < rule.get<size_t>()) report_(at, "is empty or too short");
       } else if (v.is_string() && keyword == "pattern") {
-        if (!std::regex_search(v.get<std::string>(), std::regex(rule.get<std::string>()))) {
-          report_(at, fmt::format("'{}' does not match {}", v.get<std::string>(), rule.get<std::string>()));
-        }
+        check_pattern(v.get<std::string>(), rule.get<std::string>(), at);
       } else if (v.is_array() && keyword == "items") {
         for (size_t i = 0; i < v.size(); ++i) check(v[i], rule, fmt::format("{}/{}", at, i));
       } else if (!is_known(keyword)) {
@@ -205,6 +201,18 @@ class SchemaChecker {
     report_(at, fmt::format("is {} but must be {}", v.is_object() || v.is_array() ? v.type_name() : v.dump(),
                             wanted));
   }
+  // What lacks a key often has it misspelt.
+  void check_required(const Json& v, const Json& schema, const std::string& wanted, const std::string& at) {
+    if (v.contains(wanted)) return;
+    const Json properties = schema.value("properties", Json::object());
+    for (const auto& [key, unused] : v.items()) {
+      if (properties.contains(key) || edit_distance(key, wanted) > std::max<size_t>(2, key.size() / 2))
+        continue;
+      return report_(at + "/" + pointer_token(key),
+                     fmt::format("unknown key '{}'; did you mean '{}'?", key, wanted));
+    }
+    report_(at, fmt::format("lacks '{}'", wanted));
+  }
   void check_enum(const Json& v, const Json& allowed, const std::string& at) {
     std::vector<std::string> names;
     for (const auto& a : allowed) {
@@ -228,6 +236,15 @@ class SchemaChecker {
       first = false;
     }
     for (const auto& [p, m] : best) report_(p, m);
+  }
+  // The library's search recurses at each character.
+  void check_pattern(const std::string& text, const std::string& pattern, const std::string& at) {
+    constexpr size_t kLongest = 4096;
+    if (text.size() > kLongest) {
+      report_(at, fmt::format("has {} bytes but may have {}", text.size(), kLongest));
+    } else if (!std::regex_search(text, std::regex(pattern))) {
+      report_(at, fmt::format("'{}' does not match {}", text, pattern));
+    }
   }
   void check_bound(double v, const std::string& keyword, double bound, const std::string& at) {
     if (keyword == "minimum" && !(v >= bound)) report_(at, fmt::format("{} must be at least {}", v, bound));

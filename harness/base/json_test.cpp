@@ -20,7 +20,7 @@ JsonDocument parse(std::string_view text) { return JsonDocument::parse(text, "f.
 const char* kSchema = R"({
   "type": "object", "required": ["name"], "additionalProperties": false,
   "properties": {"name": {"type": "string"}, "size": {"type": "integer", "minimum": 1},
-                 "kind": {"enum": ["spot", "sun"]}, "list": {"type": "array", "items": {"type": "number"}}}})";
+                 "id": {"type": "string", "pattern": "^[a-z]+$"}, "kind": {"enum": ["spot", "sun"]}, "list": {"type": "array", "items": {"type": "number"}}}})";
 
 }  // namespace
 
@@ -56,6 +56,16 @@ TEST(Json, SchemaErrorsSayLineAndNearestKey) {
   EXPECT_EQ(message_of([&] { check_schema(parse("{\"name\": \"x\", \"list\": [1,\n\"2\"]}"), schema); }),
             "f.json:2: 'list/1' is \"2\" but must be number");
   EXPECT_EQ(message_of([&] { check_schema(parse("{\"name\": \"x\", \"size\": 2}"), schema); }), "no error");
+}
+
+TEST(Json, ATextTooLongForItsPatternIsRefused) {
+  const auto message_for = [](size_t bytes) {
+    const Json schema = Json::parse(kSchema);
+    return message_of(
+        [&] { check_schema(parse(R"({"name": "x", "id": ")" + std::string(bytes, 'a') + "\"}"), schema); });
+  };
+  EXPECT_EQ(message_for(4096), "no error");
+  EXPECT_EQ(message_for(1 << 20), "f.json:1: 'id' has 1048576 bytes but may have 4096");
 }
 
 TEST(Json, ListsAllViolations) {

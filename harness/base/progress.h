@@ -1,4 +1,4 @@
-// A progress bar with the time left, on a terminal; silent elsewhere.
+// A progress bar with the time left, on a terminal; elsewhere a line of the log now and then.
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,19 @@ namespace vsglbench {
 
 class Progress {
  public:
-  Progress(std::string label, uint64_t total);
+  Progress(std::string label, uint64_t total, double line_every_s = 10);
   ~Progress();                       // clears the bar's line
   void advance(uint64_t steps = 1);  // any thread
   void label(std::string text);
 
  private:
-  void draw();
+  void show();
+  void draw(double fraction, const std::string& left);
   std::string label_;
   uint64_t total_, done_ = 0;
   bool terminal_;
-  std::chrono::steady_clock::time_point start_, drawn_;
+  double every_s_;  // between two bars or lines
+  std::chrono::steady_clock::time_point start_, shown_;
   std::mutex mutex_;
 };
 

@@ -33,8 +33,10 @@ void add_answer_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("answer", "which method and settings reach an error, or are best within a time");
   command->footer(
-      "One sentence and a small table a scene: the cheapest case that reaches the error (the best within the time), "
-      "what\nhalving the error costs, and every method's own best. Times are medians, errors means over seeds, with 95 % "
+      "One sentence and a small table a scene: the cheapest case that reaches the error (the best within the "
+      "time), "
+      "what\nhalving the error costs, and every method's own best. Times are medians, errors means over "
+      "seeds, with 95 % "
       "intervals.\nWhat halving costs is read off the front in log-log; nothing is extrapolated.\n"
       "Example: vsglbench answer reports/front-lavapipe --scene cornell --error 'smape<=10'\n"
       "         vsglbench answer reports/front-lavapipe --time 50ms --metric rmse");
@@ -44,9 +46,10 @@ void add_answer_command(CLI::App& app) {
   command->add_option("--time", options->time, "a bound such as 2ms");
   command->add_option("--metric", options->question.options.metric,
                       "with --time: the error to make small (default smape)");
-  command->add_option("--sum", options->question.options.time,
-                      fmt::format("which time counts: {} (default method: all passes but the raster of the halves)",
-                                  fmt::join(time_columns(), ", ")));
+  command->add_option(
+      "--sum", options->question.options.time,
+      fmt::format("which time counts: {} (default method: all passes but the raster of the halves)",
+                  fmt::join(time_columns(), ", ")));
   command
       ->add_option("--visibility", options->question.visibility,
                    "none or full: against which reference (default: full where there is one)")

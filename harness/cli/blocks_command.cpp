@@ -87,7 +87,8 @@ void add_blocks_command(CLI::App& app, const std::vector<std::string>& argv, Com
         ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
     command->add_option("--repetitions", options->repetitions, "timed runs of each (default 9)")
         ->check(CLI::Range(1, 10000));
-    command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+    command->add_option("--device", options->device,
+                        "Vulkan device: index, UUID, PCI address or part of its name");
     command->add_option("--out", options->out, "file for the report as JSON");
     command->callback([=] {
       if (options->blocks.empty()) options->blocks = block_names();

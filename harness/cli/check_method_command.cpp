@@ -82,7 +82,7 @@ void add_check_method_command(CLI::App& app, CommandResult* result) {
       "  lights      all written, finite, unit axes, no power from nothing, at each parameter's ends too\n"
       "  flux        their power is the texels' within the method's flux_bound, at the parameters' ends too\n"
       "  passes      every dispatch is in a named, timed pass, the same ones each frame\n"
-      "  bounds      nothing is written past the lights or a scratch buffer\n"
+      "  bounds      nothing is written past the lights or a scratch buffer, up to 64 MiB behind each\n"
       "  memory      no frame takes more than the first, and all is given back\n"
       "  validation  the Vulkan validation layers are silent, synchronisation included\n"
       "  image       whole frames of a scene: repeatable, finite, black without light\n"
@@ -98,7 +98,7 @@ void add_check_method_command(CLI::App& app, CommandResult* result) {
                    "seconds that a check may be silent before it is stopped")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--device", options->device, "index, or part of a device's name");
+  command->add_option("--device", options->device, "index, UUID, PCI address or part of a device's name");
   command->add_flag("--json", *json, "as JSON");
   command->callback([=] { result->exit_code = check(*name, *options, *json) ? 0 : 1; });
 }

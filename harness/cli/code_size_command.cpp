@@ -13,7 +13,7 @@ void add_code_size_command(CLI::App& app, CommandResult*) {
       app.add_subcommand("code-size", "kernels, dispatches and lines of each method ([MFIS16] Tab. 3)");
   command->footer("Example: vsglbench code-size");
   command->add_flag("--json", *json, "as JSON, with the files that were counted");
-  command->add_option("--device", *device, "Vulkan device: index or part of its name");
+  command->add_option("--device", *device, "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] {
     Device opened({.select = *device});
     std::vector<CodeSize> sizes;

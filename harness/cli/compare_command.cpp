@@ -18,18 +18,24 @@ struct CompareCommand {
 
 void add_compare_command(CLI::App& app, CommandResult* result) {
   auto options = std::make_shared<CompareCommand>();
-  CLI::App* command = app.add_subcommand("compare", "what became faster, slower, better or worse between two reports");
+  CLI::App* command =
+      app.add_subcommand("compare", "what became faster, slower, better or worse between two reports");
   command->footer(
-      "Times: ratios of medians with bootstrap intervals, per case and, a pair a case, per pass. A change is one "
-      "beyond\nits interval, the A/A noise of both reports, 0.5 %, and a probability of superiority of 0.8. Errors: seeds "
-      "are pairs.\nRefused: other formulas, other references, other devices (unless --ratios or --other-device).\n"
+      "Times: ratios of medians with bootstrap intervals, per case and, a pair a case, per pass. A change is "
+      "one "
+      "beyond\nits interval, the A/A noise of both reports, 0.5 %, and a probability of superiority of 0.8. "
+      "Errors: seeds "
+      "are pairs.\nRefused: other formulas, other references, other devices (unless --ratios or "
+      "--other-device).\n"
       "Exit codes: 0 nothing is worse, 4 something is, 5 refused, or a pass can't be told.\n"
       "Example: vsglbench compare reports/front-lavapipe reports/out/front");
   command->add_option("base", options->base, "report.json, or its folder")->required();
   command->add_option("new", options->now, "report.json, or its folder")->required();
-  command->add_flag("--ratios", options->options.ratios,
-                    "compare each case's time over that of its scene's first case, which holds on any machine");
-  command->add_flag("--other-device", options->options.other_device, "compare times of two devices all the same");
+  command->add_flag(
+      "--ratios", options->options.ratios,
+      "compare each case's time over that of its scene's first case, which holds on any machine");
+  command->add_flag("--other-device", options->options.other_device,
+                    "compare times of two devices all the same");
   command->add_flag("--markdown", options->markdown, "as Markdown, for a pull request");
   command->callback([=] {
     const Comparison c =

@@ -7,7 +7,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
+#include "figure/gnuplot.h"
 #include "gpu/device.h"
+#include "image/font.h"
 #include "method/registry.h"
 #include "report/environment.h"
 
@@ -65,7 +67,8 @@ bool examine_devices() {
 bool examine_data() {
   fmt::print("data        {}\n", data_root().string());
   bool complete = true;
-  for (const char* folder : {"harness/shaders", "harness/frame", "methods/_template", "scenes", "configs"}) {
+  for (const char* folder : {"harness/shaders", "harness/frame", "methods/_template",
+                             "methods/_template_workgroup", "scenes", "configs"}) {
     std::error_code ec;
     if (std::filesystem::is_directory(data_root() / folder, ec)) continue;
     fmt::print("  missing   {}; set VSGLBENCH_ROOT to the source or installed folder\n", folder);
@@ -86,6 +89,21 @@ void examine_methods() {
   }
 }
 
+// Both cost pictures only.
+void examine_drawing() {
+  try {
+    const Font font(12);
+    fmt::print("font        DejaVu Sans\n");
+  } catch (const Error& e) {
+    fmt::print("font        missing: {}; contact sheets, `lights` and `figure` need it\n", e.what());
+  }
+  try {
+    fmt::print("gnuplot     {}\n", Gnuplot().version());
+  } catch (const Error& e) {
+    fmt::print("gnuplot     missing: {}; `figure` needs it\n", e.what());
+  }
+}
+
 void examine_cache() {
   try {
     ensure_writable_directory(cache_directory());
@@ -101,6 +119,7 @@ void examine() {
   const bool complete = examine_data();
   examine_methods();
   examine_cache();
+  examine_drawing();
   std::fflush(stdout);
   if (!usable) throw fail(ErrorKind::device, "no usable device; what each lacks is listed above");
   if (!complete) throw fail(ErrorKind::config, "the programme's data are incomplete, as listed above");

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "cli/command.h"
 #include "figure/drawing.h"
+#include "figure/gnuplot.h"
 #include "report/environment.h"
 #include "run/config.h"
 #include "run/memory.h"
@@ -54,6 +55,7 @@ void draw(const FigureOptions& o, const std::vector<std::string>& argv) {
   const std::string name = config.at("figure");
   const auto folder = o.out.empty() ? std::filesystem::path("reports/out") / name : o.out;
   ensure_writable_directory(std::filesystem::absolute(folder));
+  Gnuplot();  // where it is missing, that is said before the work
   const DrawnFigure figure = draw_figure({config, assets_directory(o.assets), folder, o.device, o.silence_s,
                                           [&](const DeviceInfo& device) { require_room(config, device); }});
   for (const auto& path : figure.paths) fmt::print("{}\n", path.string());
@@ -83,17 +85,19 @@ void add_figure_command(CLI::App& app, const std::vector<std::string>& argv, Com
       ->add_option("figure", options->figure, "config of the figure: a file, or the name of one in configs/")
       ->required();
   command->add_option("--out", options->out, "folder for the files (default reports/out/FIGURE)");
-  command->add_option("--width", options->width, "pixels, instead of the config's")
+  command
+      ->add_option("--width", options->width,
+                   "pixels of image or frame, of the plot where there is none, instead of the config's")
       ->check(CLI::Range(1, 65536));
-  command->add_option("--height", options->height, "pixels, instead of the config's")
-      ->check(CLI::Range(1, 65536));
+  command->add_option("--height", options->height, "the same of its height")->check(CLI::Range(1, 65536));
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command
       ->add_option("--time-limit", options->silence_s,
                    "seconds that one step, such as a frame, may take before the figure is stopped")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] { draw(*options, argv); });
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.h"
 #include "cli/command.h"
@@ -18,9 +19,11 @@ int print(const std::vector<LightsResult>& results) {
   for (const LightsResult& r : results) width = std::max(width, r.id.size());
   fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}\n", "case", width, "lights", "overlap", "gap",
              "overlap_p", "gap_p");
+  std::set<std::string> told;  // reasons that cases share, such as an absent asset
   for (const LightsResult& r : results) {
     if (r.status != Status::ok) {
-      fmt::print("{:<{}}  {}: {}\n", r.id, width, name(r.status), r.error);
+      const bool fresh = told.insert(r.error).second;
+      fmt::print("{:<{}}  {}: {}\n", r.id, width, name(r.status), fresh ? r.error : "as said above");
       continue;
     }
     const auto& c = r.coverage;
@@ -69,17 +72,18 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
       "Exit codes: 0 all drawn or skipped (scene not downloaded), 1 a case failed, 2 bad usage, config, "
       "plugin or\n"
       "output, or all skipped, 3 no usable device.\n"
-      "Example: vsglbench lights mfis16-fig1 --case cornell/fis --case cornell/mfis/");
+      "Example: vsglbench lights mfis16-fig1 --case 'cornell/fis/*' --case 'cornell/mfis/*'");
   command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
   command->add_option("--case", options->cases,
-                      "a case's id, or a part that no other id has; may come again (default: all)");
+                      "only the cases whose id matches this glob; may come again (default: all)");
   command->add_option("--seed", options->seed, "of the lights' lattice")->capture_default_str();
   command->add_option("--out", options->out, "folder for the files (default reports/out/NAME/lights)");
   command->add_option("--format", *format, "of the list of lights")
       ->check(CLI::IsMember({"json", "csv"}))
       ->capture_default_str();
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] {
     options->config = config_path(*config);
     options->csv = *format == "csv";

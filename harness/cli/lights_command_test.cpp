@@ -29,7 +29,7 @@ class LightsCommand : public CliTest {
 };
 
 TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
-  const Finished f = lights({"--seed", "5"});
+  const Finished f = lights({"--seed", "5", "-q"});
   ASSERT_EQ(f.code, 0) << f.err;
   EXPECT_EQ(f.err, "");
   for (const char* method : {"mfis", "kmeans2d", "vpl"}) {
@@ -55,7 +55,7 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
 }
 
 TEST_F(LightsCommand, CsvOfOneCase) {
-  const Finished f = lights({"--case", "mfis", "--format", "csv"});
+  const Finished f = lights({"--case", "*/mfis/*", "--format", "csv"});
   ASSERT_EQ(f.code, 0) << f.err;
   const std::string table = read_text(folder("mfis") / "lights.csv");
   EXPECT_TRUE(contains(table, "index,mean.0,mean.1,mean.2,sigma,power,level,diffuse.axis.0,"));
@@ -65,7 +65,7 @@ TEST_F(LightsCommand, CsvOfOneCase) {
 TEST_F(LightsCommand, RefusesWhatItDoesNotKnow) {
   expect_refused(lights({"--case", "cornell/mfsi/N=16,rsm=16,vis=exact"}), 2,
                  "the nearest is 'cornell/mfis/N=16,rsm=16,vis=exact'");
-  expect_refused(lights({"--case", "cornell"}), 2, "'cornell' is part of 3 cases' ids");
+  expect_refused(lights({"--case", "cornell"}), 2, "--case 'cornell' matches none of the 3 cases");
   expect_refused(lights({"--format", "xml"}), 2, "--format");
   expect_refused(run({"lights", "mfis16-fig2"}), 2, "mfis16-fig1");
   write("a-file", "");
@@ -90,6 +90,14 @@ TEST_F(LightsCommand, CoverageIsThatOfTheReport) {
   EXPECT_GT(*r.cases[0].generate->overlap, 0);
 }
 
+// As `run --only` does.
+TEST_F(LightsCommand, AGlobTakesSeveralCases) {
+  const Finished f = lights({"--case", "*/?[fp]*", "--format", "csv"});
+  ASSERT_EQ(f.code, 0) << f.err;
+  EXPECT_TRUE(fs::exists(folder("mfis")) && fs::exists(folder("vpl")));
+  EXPECT_FALSE(fs::exists(folder("kmeans2d")));
+}
+
 // The rest is drawn.
 TEST_F(LightsCommand, ACaseThatFailsCostsItself) {
   config_["N"] = {257, 16};
@@ -100,14 +108,39 @@ TEST_F(LightsCommand, ACaseThatFailsCostsItself) {
   EXPECT_TRUE(fs::exists(folder("mfis") / "scene.png"));
 }
 
+// Each with its first frame; the other methods' pictures are made.
+TEST_F(LightsCommand, APluginThatCrashesOrHangsCostsItsOwnCase) {
+  config_["methods"] = {{{"method", "vpl"}},
+                        {{"method", "crashes"}, {"frame", 1}},
+                        {{"method", "hangs"}, {"frame", 1}},
+                        {{"method", "mfis"}}};
+  config_["time_limit_s"] = 8;
+  const fs::path bad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+  const Finished f = lights({"--plugin-path", bad.string()});
+  EXPECT_EQ(f.signal, 0);
+  EXPECT_EQ(f.code, 1) << f.err;
+  EXPECT_TRUE(contains(f.out, "failed: crashed (signal 11, Segmentation fault) during drawing its lights\n"));
+  EXPECT_TRUE(
+      contains(f.out, "failed: was stopped after 8 s without a sign of life during drawing its lights\n"));
+  for (const char* method : {"vpl", "mfis"}) {
+    EXPECT_TRUE(fs::exists(folder(method) / "rsm.png")) << method;
+    EXPECT_TRUE(fs::exists(folder(method) / "scene.png")) << method;
+    EXPECT_GT(json(method).at("lights").size(), 0u);
+  }
+  const std::string table = read_text(out_ / "coverage.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_TRUE(contains(table, "\"cornell/crashes/") && contains(table, ",0,failed,"));
+}
+
 TEST_F(LightsCommand, ASceneThatIsNotHereIsSkipped) {
   config_["scenes"] = {"sponza", "cornell"};
-  config_["methods"] = {{{"method", "mfis"}}};
+  config_["methods"] = {{{"method", "mfis"}, {"N", {8, 16}}}};
   const Finished f = lights();
   EXPECT_EQ(f.code, 0) << f.err;
-  EXPECT_TRUE(contains(f.out, "skipped: "));
+  EXPECT_TRUE(contains(f.out, "skipped: as said above"));
+  EXPECT_EQ(f.out.find("scene sponza needs"), f.out.rfind("scene sponza needs"));
   EXPECT_TRUE(fs::exists(folder("mfis") / "scene.png"));
-  expect_refused(lights({"--case", "sponza"}), 2, "nothing is drawn: ");
+  expect_refused(lights({"--case", "sponza/*"}), 2, "nothing is drawn: ");
 }
 
 }  // namespace

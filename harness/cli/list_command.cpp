@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "figure/figure.h"
 #include "method/registry.h"
+#include "run/case_key_docs.h"
 #include "run/config.h"
 #include "run/runner.h"
 #include "scene/scene_file.h"
@@ -69,9 +70,12 @@ Json list_all_devices() {
   Json out = Json::array();
   for (const auto& d : list_devices()) {
     out.push_back({{"name", d.name},
-                   {"summary", fmt::format("{}, {} {}, Vulkan {}, {} lanes a subgroup", d.type, d.driver,
-                                           d.driver_version, d.api, d.subgroup_size)},
+                   {"summary", fmt::format("index {}, {}, {} {}, Vulkan {}, {} lanes a subgroup, UUID {}{}{}",
+                                           d.index, d.type, d.driver, d.driver_version, d.api,
+                                           d.subgroup_size, d.uuid, d.pci.empty() ? "" : ", PCI ", d.pci)},
                    {"index", d.index},
+                   {"uuid", d.uuid},
+                   {"pci", d.pci},
                    {"usable", d.missing.empty()},
                    {"missing", d.missing}});
   }
@@ -91,6 +95,12 @@ void print_text(const Json& rows) {
       fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(), p["default"].dump(),
                  range, p["description"].get<std::string>());
     }
+    if (row.contains("values")) {
+      const Json& value = row["default"];
+      fmt::print("{}default {}; {}; read by: {}\n", indent,
+                 value.is_string() ? value.get<std::string>() : value.dump(),
+                 row["values"].get<std::string>(), row["read_by"].get<std::string>());
+    }
     if (row.contains("views")) {
       std::string views;
       for (const auto& v : row["views"]) views += (views.empty() ? "" : ", ") + v.get<std::string>();
@@ -109,17 +119,18 @@ void add_list_command(CLI::App& app, CommandResult*) {
   auto what = std::make_shared<std::string>();
   auto assets = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("list", "methods, scenes, configs or devices");
+  CLI::App* command = app.add_subcommand("list", "methods, scenes, configs, their keys, or devices");
   command->footer("Example: vsglbench list methods --json");
-  command->add_option("what", *what, "methods, scenes, configs or devices")
+  command->add_option("what", *what, "methods, scenes, configs, keys or devices")
       ->required()
-      ->check(CLI::IsMember({"methods", "scenes", "configs", "devices"}));
+      ->check(CLI::IsMember({"methods", "scenes", "configs", "keys", "devices"}));
   command->add_option("--assets", *assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_flag("--json", *json, "as JSON");
   command->callback([=] {
     const Json rows = *what == "methods"   ? list_methods()
                       : *what == "scenes"  ? list_all_scenes(*assets)
                       : *what == "configs" ? list_configs()
+                      : *what == "keys"    ? list_case_keys()
                                            : list_all_devices();
     if (*json) {
       fmt::print("{}\n", rows.dump(2));

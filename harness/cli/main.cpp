@@ -14,6 +14,7 @@
 #include "base/nearest.h"
 #include "base/printable.h"
 #include "cli/command.h"
+#include "image/theme.h"
 #include "method/plugin.h"
 #include "method/registry.h"
 #include "report/environment.h"
@@ -34,12 +35,13 @@ int report_usage(const CLI::App& app, const CLI::ParseError& e, const std::vecto
   const std::string first = arguments.size() > 1 ? arguments[1] : "";
   const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
   if (!first.empty() && first.front() != '-' && !is_command) {
-    return report(fmt::format("no command '{}'{}", first, suggestion(first, known)), 2);
+    return report(fmt::format("no command '{}'{}", first, suggestion(first, known)),
+                  exit_code(ErrorKind::usage));
   }
   const std::string help = is_command ? "vsglbench " + first + " --help" : "vsglbench --help";
   std::string what = e.what();
   if (what.ends_with('.')) what.pop_back();
-  return report(fmt::format("{}; see {}", what, help), 2);
+  return report(fmt::format("{}; see {}", what, help), exit_code(ErrorKind::usage));
 }
 
 // NaN passes every check of a range.
@@ -72,11 +74,16 @@ int main(int argc, char** argv) {
   std::string plugin_path;
   app.add_option("--plugin-path", plugin_path,
                  "folders of method plugins, separated by ':', searched before $VSGLBENCH_PLUGINS");
+  std::string theme = theme_names().front();
+  app.add_option("--theme", theme, "of contact sheets, error maps and pictures of lights; light is for print")
+      ->check(CLI::IsMember(theme_names()))
+      ->capture_default_str();
   app.set_version_flag("--version", fmt::format("vsglbench {} (commit {}, plugin ABI {})", VSGLBENCH_VERSION,
                                                 build_git().commit, plugin_abi));
   app.parse_complete_callback([&] {
     set_log_level(verbose ? LogLevel::verbose : quiet ? LogLevel::quiet : LogLevel::normal);
     set_plugin_path(plugin_path);
+    set_theme(theme);
   });
   CommandResult result;
   add_run_command(app, arguments, &result);
@@ -99,17 +106,20 @@ int main(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
-    if (std::fflush(stdout) != 0) return report(std::string("standard output: ") + std::strerror(errno), 2);
-    if (std::ferror(stdout))
-      return report("standard output: what was printed could not be written; is the disk full?", 2);
+    if (std::fflush(stdout) != 0) throw fail(ErrorKind::output, "standard output: {}", std::strerror(errno));
+    if (std::ferror(stdout)) {
+      throw Error(ErrorKind::output,
+                  "standard output: what was printed could not be written; is the disk full?");
+    }
     return result.exit_code;
   } catch (const CLI::ParseError& e) {
     return e.get_exit_code() == 0 ? app.exit(e) : report_usage(app, e, arguments);
   } catch (const Error& e) {
     return report(e.what(), e.exit_code());
   } catch (const std::bad_alloc&) {
-    return report("out of memory; use a smaller frame, RSM or number of lights", 1);
+    return report("out of memory; use a smaller frame, RSM or number of lights",
+                  exit_code(ErrorKind::case_failed));
   } catch (const std::exception& e) {
-    return report(e.what(), 1);
+    return report(e.what(), exit_code(ErrorKind::internal));
   }
 }

@@ -64,8 +64,13 @@ NewMethod checked(const std::string& name, const fs::path& dir) {
   return {name, folder, dir / folder};
 }
 
-void write_files(const NewMethod& method) {
-  const fs::path from = data_root() / "methods" / "_template";
+// The template's folder over that of the first one, which has what all have.
+std::vector<std::string> folders_of(const std::string& which) {
+  if (which == "thread") return {"_template"};
+  return {"_template", "_template_" + which};
+}
+
+void write_files(const NewMethod& method, const fs::path& from) {
   std::error_code ec;
   if (!fs::is_directory(from, ec)) {
     throw fail(ErrorKind::config, "{}: the template is missing; `vsglbench doctor` says more", from.string());
@@ -115,14 +120,21 @@ void print_next_steps(const NewMethod& method, bool in_tree) {
 void add_new_method_command(CLI::App& app, CommandResult*) {
   auto name = std::make_shared<std::string>();
   auto dir = std::make_shared<fs::path>(".");
+  auto which = std::make_shared<std::string>("thread");
   CLI::App* command = app.add_subcommand("new-method", "write the folder of a new method");
-  command->footer("Example: vsglbench new-method my-method --dir ~/methods");
+  command->footer(
+      "Templates: thread     one invocation a light, from a texel that the PDF draws\n"
+      "           workgroup  one workgroup a light, which sums the texels of a tile\n"
+      "Example: vsglbench new-method my-method --dir ~/methods");
   command->add_option("name", *name, "as configs will name it: lower-case letters, digits, dashes")
       ->required();
   command->add_option("--dir", *dir, "where its folder goes (default: here); in a source tree: methods");
+  command->add_option("--template", *which, "what is written")
+      ->check(CLI::IsMember({"thread", "workgroup"}))
+      ->capture_default_str();
   command->callback([=] {
     const NewMethod method = checked(*name, *dir);
-    write_files(method);
+    for (const auto& folder : folders_of(*which)) write_files(method, data_root() / "methods" / folder);
     print_next_steps(method, join_tree(method));
   });
 }

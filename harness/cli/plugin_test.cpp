@@ -21,21 +21,21 @@ class PluginTest : public CliTest {
     if (found == report.cases.end()) throw std::runtime_error("no case of " + method);
     return *found;
   }
-  static void expect_failed(const CaseResult& c, const std::string& kind, const std::string& part) {
+  static void expect_failed(const CaseResult& c, ErrorKind kind, const std::string& part) {
     EXPECT_EQ(c.status, Status::failed) << c.id;
     ASSERT_TRUE(c.error) << c.id;
-    EXPECT_EQ(c.error->kind, kind) << c.error->message;
+    EXPECT_EQ(name(c.error->kind), name(kind)) << c.error->message;
     EXPECT_TRUE(contains(c.error->message, part));
   }
-  // Runs a programme that is not vsglbench; its output when it fails.
-  static void shell(const std::string& command) {
+  // Runs a programme that is not vsglbench; its output.
+  static std::string shell(const std::string& command) {
     const std::string all = command + " 2>&1";
     FILE* pipe = ::popen(all.c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
     std::string out;
     char part[4096];
     for (size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) out.append(part, n);
-    ASSERT_EQ(::pclose(pipe), 0) << command << "\n" << out;
+    EXPECT_EQ(::pclose(pipe), 0) << command << "\n" << out;
+    return out;
   }
   const fs::path bad_ = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
 };
@@ -56,13 +56,14 @@ TEST_F(PluginTest, ABadOneCostsItsOwnCaseAndNothingElse) {
     EXPECT_TRUE(of(r, sound).accuracy);
     EXPECT_EQ(of(r, sound).seeds.size(), 2u);
   }
-  expect_failed(of(r, "wrong-abi"), "plugin", "was built for plugin ABI");
-  expect_failed(of(r, "crashes-on-load"), "plugin", "crashed (signal 6, Aborted) while it was loaded");
-  expect_failed(of(r, "needs-feature"), "plugin", "needs shaderTelepathy, which");
-  expect_failed(of(r, "crashes"), "crashed", "signal 11");
-  expect_failed(of(r, "hangs"), "timeout", "4 s");
-  expect_failed(of(r, "loses-device"), "device_lost", "the device was lost");
-  expect_failed(of(r, "returns-nan"), "not_finite", "generate.gbuffer");
+  expect_failed(of(r, "wrong-abi"), ErrorKind::plugin, "was built for plugin ABI");
+  expect_failed(of(r, "crashes-on-load"), ErrorKind::plugin,
+                "crashed (signal 6, Aborted) while it was loaded");
+  expect_failed(of(r, "needs-feature"), ErrorKind::plugin, "needs shaderTelepathy, which");
+  expect_failed(of(r, "crashes"), ErrorKind::crashed, "signal 11");
+  expect_failed(of(r, "hangs"), ErrorKind::timeout, "4 s");
+  expect_failed(of(r, "loses-device"), ErrorKind::device_lost, "the device was lost");
+  expect_failed(of(r, "returns-nan"), ErrorKind::not_finite, "generate.gbuffer");
 }
 
 // Each used to give status ok and a plausible SMAPE.
@@ -73,10 +74,10 @@ TEST_F(PluginTest, KernelsThatAreWrongInSilenceAreRefused) {
   EXPECT_EQ(f.code, 1) << f.err;
   const Report r = report();
   EXPECT_EQ(of(r, "mfis").status, Status::ok);
-  expect_failed(of(r, "off-by-one"), "refused",
+  expect_failed(of(r, "off-by-one"), ErrorKind::refused,
                 "the first is light 0, and byte 0 past the end of lights.rsm");
-  expect_failed(of(r, "endless-loop"), "plugin", "endless_loop.comp: a loop does not end");
-  expect_failed(of(r, "push-block"), "plugin", "block has 12 bytes, and the host pushes 8");
+  expect_failed(of(r, "endless-loop"), ErrorKind::plugin, "endless_loop.comp: a loop does not end");
+  expect_failed(of(r, "push-block"), ErrorKind::plugin, "block has 12 bytes, and the host pushes 8");
 }
 
 // The texel whose weight is a NaN is (5, 3) of the RSM; lights and image are sound.
@@ -100,7 +101,7 @@ TEST_F(PluginTest, CheckPassesNamesThePassAndTexelThatWentBad) {
   for (const char* sound : {"vpl", "mfis", "kmeans3d"}) EXPECT_EQ(of(r, sound).status, Status::ok);
   const CaseResult& bad = of(r, "hides-nan");
   expect_failed(
-      bad, "not_finite",
+      bad, ErrorKind::not_finite,
       "pass generate.rsm.weigh is the first to hold a NaN: buffer weights, element 53, texel (5, 3)");
   ASSERT_TRUE(bad.health && bad.health->first_bad);
   EXPECT_EQ(bad.health->nan, 1u);
@@ -136,25 +137,33 @@ TEST_F(PluginTest, NewMethodRefusesWhatItCantWrite) {
   expect_refused(run({"new-method", "mine", "--dir", folder_.string()}), 2, "exists already");
 }
 
-// From an installed vsglbench alone: write a method, build it, test it, list it, run it.
+// From an installed vsglbench alone: write a method of each template, build it, test it, list it, run it.
 TEST_F(PluginTest, ANewMethodIsBuiltOutsideTheTreeAndRuns) {
-  const fs::path prefix = folder_ / "prefix", method = folder_ / "my_own";
+  const fs::path prefix = folder_ / "prefix";
   shell(fmt::format("cmake --install {} --prefix {}", VSGLBENCH_BINARY_DIR, prefix.string()));
   const std::string installed = (prefix / "bin" / "vsglbench").string();
-  shell(fmt::format("{} new-method my-own --dir {}", installed, folder_.string()));
-  shell(fmt::format("cmake -S {0} -B {0}/build -G Ninja -DCMAKE_PREFIX_PATH={1}", method.string(),
-                    prefix.string()));
-  shell(fmt::format("cmake --build {}/build", method.string()));
-  shell(fmt::format("ctest --test-dir {}/build --output-on-failure --no-tests=error", method.string()));
-  use_methods({"my-own", "vpl"});
+  std::string plugins;
+  for (const std::string kind : {"thread", "workgroup"}) {
+    const fs::path method = folder_ / ("my_" + kind);
+    shell(fmt::format("{} new-method my-{} --dir {} --template {}", installed, kind, folder_.string(), kind));
+    const std::string configured = shell(fmt::format(
+        "cmake -S {0} -B {0}/build -G Ninja -DCMAKE_PREFIX_PATH={1}", method.string(), prefix.string()));
+    EXPECT_EQ(configured.find("Warning"), std::string::npos) << configured;
+    shell(fmt::format("cmake --build {}/build", method.string()));
+    shell(fmt::format("ctest --test-dir {}/build --output-on-failure --no-tests=error", method.string()));
+    plugins += (plugins.empty() ? "" : ":") + (method / "build" / "plugins").string();
+  }
+  use_methods({"my-thread", "my-workgroup", "vpl"});
   const fs::path config = write_config();
-  shell(fmt::format("VSGLBENCH_PLUGINS={}/build/plugins {} -q run {} --out {}", method.string(), installed,
-                    config.string(), out_.string()));
+  shell(fmt::format("VSGLBENCH_PLUGINS={} {} -q run {} --out {}", plugins, installed, config.string(),
+                    out_.string()));
   const Report r = report();
-  ASSERT_EQ(r.cases.size(), 2u);
-  EXPECT_EQ(of(r, "my-own").status, Status::ok);
-  // Unbiased: as bright as the VPLs, but for the blur and the noise of 16 lights.
-  EXPECT_NEAR(*of(r, "my-own").accuracy->bias.value, *of(r, "vpl").accuracy->bias.value, 0.5);
+  ASSERT_EQ(r.cases.size(), 3u);
+  for (const char* method : {"my-thread", "my-workgroup"}) {
+    ASSERT_EQ(of(r, method).status, Status::ok) << method;
+    // Unbiased: as bright as the VPLs, but for the blur and the noise of 16 lights.
+    EXPECT_NEAR(*of(r, method).accuracy->bias.value, *of(r, "vpl").accuracy->bias.value, 0.5) << method;
+  }
 }
 
 }  // namespace

@@ -51,10 +51,11 @@ void compute(const ReferenceOptions& options) {
   write_exr(options.out / (stem + ".reference.exr"), r.mean, r.mask);
   write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
   fmt::print(
-      "{}{}: {} triangles, {} samples in {} batches, {:.1f} M rays in {} ({}), noise floor {:.2f} % SMAPE{}, "
+      "{}{}: {} triangles, {} samples in {} batches{}, {:.1f} M rays in {} ({}), noise floor {:.2f} % "
+      "SMAPE{}, "
       "standard error of the mean {:.3f} %, hash {}\n",
       scene.name, options.no_occlusion ? " without occlusion" : "", scene.triangles.size(), r.samples,
-      r.batches, static_cast<double>(r.rays) * 1e-6, format_duration(r.seconds),
+      r.batches, rounding_of(r, parameters), static_cast<double>(r.rays) * 1e-6, format_duration(r.seconds),
       cached ? "from the cache" : "computed", r.noise_floor_smape, end_of_search(r, parameters),
       100 * r.standard_error, r.hash);
   fmt::print("{}\n", (options.out / (stem + ".reference.exr")).string());

@@ -2,12 +2,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
-#include <cstdlib>
 
 #include "base/child.h"
 #include "base/error.h"
+#include "base/percent.h"
 #include "cli/command.h"
 #include "report/noise.h"
 #include "report/table.h"
@@ -39,12 +38,11 @@ void print_outcome(const RunOutcome& outcome) {
 }
 
 // "5%" as 0.05.
-double share_of(const std::string& percent) {
-  char* end = nullptr;
-  const double value = std::strtod(percent.c_str(), &end);
-  if (std::string_view(end) != "%" || !std::isfinite(value) || value <= 0)
-    throw fail(ErrorKind::usage, "--require-noise takes a percentage above 0, such as 5%, not '{}'", percent);
-  return value / 100;
+double share_of(const std::string& text) {
+  const double percent = parse_percent(text).value_or(0);
+  if (percent <= 0)
+    throw fail(ErrorKind::usage, "--require-noise takes a percentage above 0, such as 5%, not '{}'", text);
+  return percent / 100;
 }
 
 // `noise`: of --require-noise; empty: any.
@@ -85,8 +83,15 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
   command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
   command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)");
   command->add_option("--only", options->only, "run only the cases whose id matches this glob");
+  command
+      ->add_option(
+          "--set", options->set,
+          "KEY=VALUE, such as N=64, visibility=none or rsm=[64,128]: in place of what the config says "
+          "of this key for any method; may come again (keys: vsglbench list keys)")
+      ->allow_extra_args(false);
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command
       ->add_option(
           "--time-limit", options->time_limit_s,

@@ -1,13 +1,14 @@
-#include <charconv>
 #include <fstream>
 #include <iostream>
 #include <memory>
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
 #include "operation/sg_random.h"
 #include "operation/sg_receiver.h"
+#include "operation/sg_rows.h"
 
 namespace vsglbench {
 namespace {
@@ -51,89 +52,35 @@ SgQuestion question(const SgOptions& o) {
   return q;
 }
 
-// "a, b" to {"a", "b"}; spaces around a cell are no part of it.
-std::vector<std::string_view> cells(std::string_view line) {
-  std::vector<std::string_view> out;
-  for (size_t at = 0; at <= line.size();) {
-    const size_t end = std::min(line.find(',', at), line.size());
-    std::string_view cell = line.substr(at, end - at);
-    while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
-    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
-      cell.remove_suffix(1);
-    out.push_back(cell);
-    at = end + 1;
-  }
-  return out;
-}
-
-// Rows of a CSV text. Throws Error(usage) "NAME:LINE: what".
-std::vector<float> parse_rows(const SgQuestion& q, const std::string& name, std::istream& text) {
-  const std::vector<std::string>& columns = q.info().columns;
-  std::vector<float> rows, row(columns.size());
-  std::string line;
-  size_t number = 0;
-  const auto refuse = [&](const std::string& what) {
-    return fail(ErrorKind::usage, "{}:{}: {}", name, number, what);
-  };
-  for (number = 1; std::getline(text, line); ++number) {
-    const std::vector<std::string_view> read = cells(line);
-    if (number == 1) {
-      if (!std::equal(read.begin(), read.end(), columns.begin(), columns.end())) {
-        throw refuse(fmt::format("the header is not \"{}\", the columns of {}", fmt::join(columns, ","),
-                                 q.info().name));
-      }
-      continue;
-    }
-    if (read.size() == 1 && read[0].empty()) continue;
-    if (read.size() != columns.size()) {
-      throw refuse(fmt::format("{} values, not the {} of \"{}\"", read.size(), columns.size(),
-                               fmt::join(columns, ",")));
-    }
-    for (size_t k = 0; k < read.size(); ++k) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(read[k].data(), read[k].data() + read[k].size(), value);
-      if (error != std::errc() || end != read[k].data() + read[k].size()) {
-        throw refuse(fmt::format("{}: \"{}\" is not a number", columns[k], read[k]));
-      }
-      row[k] = static_cast<float>(value);
-    }
-    if (const std::string what = out_of_domain(q, row); !what.empty()) throw refuse(what);
-    rows.insert(rows.end(), row.begin(), row.end());
-  }
-  if (number == 1) throw refuse(fmt::format("empty; the first line is \"{}\"", fmt::join(columns, ",")));
-  return rows;
-}
-
 std::vector<float> read_rows(const SgOptions& o, const SgQuestion& q) {
   if (o.in.empty() && q.function == SgFunction::receiver) return sg_receiver::table_rows();
-  if (o.in.empty()) return parse_rows(q, "standard input", std::cin);
+  if (o.in.empty()) return parse_sg_rows(q, "standard input", std::cin);
   std::ifstream text(o.in);  // which may be a pipe
   if (!text || std::filesystem::is_directory(o.in)) {
     throw fail(ErrorKind::usage, "{}: not a file that can be read", o.in.string());
   }
-  return parse_rows(q, o.in.string(), text);
+  return parse_sg_rows(q, o.in.string(), text);
 }
 
 // cosine,sharpness,value,exact,abs_error; more than one result: name,exact_name of each.
 std::string to_csv(const SgQuestion& q, const std::vector<float>& rows, const SgAnswers& a) {
   const SgFunctionInfo& info = q.info();
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
-  fmt::format_to(to, "{}", fmt::join(info.columns, ","));
-  for (const auto& r : info.results) {
-    fmt::format_to(to, ",{},{}", r, r == "value" ? "exact" : "exact_" + r);
-  }
-  fmt::format_to(to, ",{}\n", error_name(info.error));
+  std::vector<std::string> cells = info.columns;
+  for (const auto& r : info.results) cells.insert(cells.end(), {r, r == "value" ? "exact" : "exact_" + r});
+  cells.emplace_back(error_name(info.error));
+  std::string text = csv_row(cells);
   const size_t columns = info.columns.size();
   for (size_t i = 0; i < a.error.size(); ++i) {
-    const auto row = rows.begin() + static_cast<ptrdiff_t>(i * columns);
-    fmt::format_to(to, "{}", fmt::join(row, row + static_cast<ptrdiff_t>(columns), ","));
+    cells.clear();
+    for (size_t k = i * columns; k < (i + 1) * columns; ++k) cells.push_back(fmt::format("{}", rows[k]));
     for (size_t k = i * a.results; k < (i + 1) * a.results; ++k) {
-      fmt::format_to(to, ",{},{}", a.values[k], a.exact[k]);
+      cells.push_back(fmt::format("{}", a.values[k]));
+      cells.push_back(fmt::format("{}", a.exact[k]));
     }
-    fmt::format_to(to, ",{:.3g}\n", a.error[i]);
+    cells.push_back(fmt::format("{:.3g}", a.error[i]));
+    text += csv_row(cells);
   }
-  return fmt::to_string(out);
+  return text;
 }
 
 std::vector<float> row_of(const SgQuestion& q, const std::vector<float>& rows, size_t i) {
@@ -189,7 +136,8 @@ void add_sg_command(CLI::App& app, CommandResult* result) {
                    "this many random rows over the whole domain, instead of a CSV")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
   command->add_option("--seed", options->seed, "of the random rows (default 1)");
-  command->add_option("--device", options->device, "Vulkan device: index or part of its name");
+  command->add_option("--device", options->device,
+                      "Vulkan device: index, UUID, PCI address or part of its name");
   command->callback([=] { result->exit_code = evaluate(*options); });
 }
 

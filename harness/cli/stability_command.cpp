@@ -76,7 +76,7 @@ void add_stability_command(CLI::App& app, CommandResult* result) {
   command->add_option("--time-limit", options->silence_s, "seconds that a case may take before it is stopped")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--device", options->device, "index, or part of a device's name");
+  command->add_option("--device", options->device, "index, UUID, PCI address or part of a device's name");
   command->add_flag("--json", *json, "as JSON, once all is done");
   command->callback([=] { result->exit_code = run(*options, *json) ? 0 : 1; });
 }

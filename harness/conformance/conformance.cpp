@@ -12,59 +12,56 @@
 namespace vsglbench {
 namespace {
 
-// The child's part: device, method, check. What keeps every check from running is told apart.
-void inspect(const ConformanceCheck& check, const MethodInfo& method, const ConformanceOptions& options,
-             const ToParent& parent) {
-  std::unique_ptr<Device> device;
-  MethodInfo loaded;
-  try {
-    device =
-        std::make_unique<Device>(DeviceOptions{.select = options.device, .validation = check.validation});
-    loaded = method.create ? method : load_plugin(method.library, device->info());
-  } catch (const Error& e) {
-    // Of the validating device alone: its layers are missing, and the other checks go on.
-    parent.send({{check.validation ? "ended" : "unusable", e.what()}, {"kind", e.exit_code()}});
-    return;
-  }
-  try {
-    Inspection inspection(*device, loaded, options.large, parent);
-    check.run(inspection);
-    parent.send({{"done", true}});
-  } catch (const std::exception& e) {
-    parent.send({{"ended", e.what()}});
+// Of an error that no input is to blame for, such as a kernel that doesn't compile.
+constexpr const char* kEarly = "before its first input";
+
+void add(const CheckNews& news, CheckResult* result) {
+  switch (news.kind) {
+    case CheckNews::Kind::input:
+      ++result->inputs;
+      return;
+    case CheckNews::Kind::failure:
+      return result->failures.push_back(news.text);
+    case CheckNews::Kind::left_out:
+      return result->left_out.push_back(news.text);
+    case CheckNews::Kind::measured:
+      return result->measured.push_back(news.text);
   }
 }
 
-// Of an error that no input is to blame for, such as a kernel that doesn't compile.
-constexpr const char* kEarly = " (before its first input)";
+// In the worker.
+void inspect(const ConformanceCheck& check, const MethodInfo& method, const ConformanceOptions& options,
+             const Worker<CheckNews>& worker) {
+  const Task first{0, kEarly, options.silence_s};
+  // That the layers of the validating device are missing is its check's fault alone: the others go on.
+  worker.now(check.validation ? first : Task{{}, "opening the device", options.silence_s});
+  Device device({.select = options.device, .validation = check.validation});
+  const MethodInfo loaded = method.create ? method : load_plugin(method.library, device.info());
+  worker.now(first);
+  Inspection inspection(device, loaded, options, worker);
+  check.run(inspection);
+}
 
-// The parent's part: what the child says, and how it ends.
+// In the caller: what the worker says, and how it ends.
 CheckResult run_check(const ConformanceCheck& check, const MethodInfo& method,
                       const ConformanceOptions& options) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   CheckResult result{.name = check.name};
-  std::string where = kEarly;
-  bool done = false;  // to its end, or to an error that it told
-  Child child([&](const ToParent& parent) { inspect(check, method, options, parent); });
-  while (const auto message = child.receive(options.silence_s)) {
-    if (message->contains("unusable"))
-      throw Error(message->at("kind").get<ErrorKind>(), message->at("unusable").get<std::string>());
-    if (message->contains("input")) {
-      where = fmt::format(" (on {})", message->at("input").get<std::string>());
-      ++result.inputs;
-    }
-    if (message->contains("ended"))
-      result.failures.push_back(message->at("ended").get<std::string>() + where);
-    if (message->contains("failure")) result.failures.push_back(message->at("failure"));
-    if (message->contains("left_out")) result.left_out.push_back(message->at("left_out"));
-    if (message->contains("measured")) result.measured.push_back(message->at("measured"));
-    done = done || message->contains("done") || message->contains("ended");
-  }
-  if (!done || !child.how_it_ended().empty()) {
-    const std::string how = child.how_it_ended().empty() ? "ended the process" : child.how_it_ended();
-    result.failures.push_back(how + where);
-  }
+  supervise<CheckNews>({.name = check.name,
+                        .work =
+                            [&](const Worker<CheckNews>& worker, const std::vector<size_t>& left) {
+                              inspect(check, method, options, worker);
+                              worker.done(left.front());
+                            },
+                        .told = [&](const CheckNews& news) { add(news, &result); },
+                        .lost =
+                            [&](size_t, const End& end) {
+                              const bool unusable =
+                                  end.kind == ErrorKind::device || end.kind == ErrorKind::plugin;
+                              if (unusable && !end.task.job) throw Error(end.kind, end.how);
+                              result.failures.push_back(fmt::format("{} ({})", end.how, end.task.action));
+                            }});
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return result;
 }
@@ -72,7 +69,7 @@ CheckResult run_check(const ConformanceCheck& check, const MethodInfo& method,
 // What stopped an earlier check before its first input is not said in full again.
 void name_repeated(std::map<std::string, std::string>* told, CheckResult* result) {
   for (std::string& failure : result->failures) {
-    if (!failure.ends_with(kEarly)) continue;
+    if (!failure.ends_with(fmt::format(" ({})", kEarly))) continue;
     const auto [earlier, is_new] = told->emplace(failure, result->name);
     if (!is_new) failure = fmt::format("the same error as in {}", earlier->second);
   }

@@ -13,7 +13,9 @@
 //               errors
 //   passes      each pass is one of Steps (generate.<half>.<step>) and has a time; two frames have the same
 //               ones; nothing is dispatched outside a pass
-//   bounds      nothing is written past the lights asked for, nor past the end of a scratch buffer
+//   bounds      nothing is written past the lights asked for, nor past the end of a scratch buffer: up to 4
+//   KiB
+//               behind it, and on one input of each half up to 64 MiB (of more than 7 buffers 512 MiB in all)
 //   memory      a second frame takes no more device memory, and in the end all of it is given back
 //   validation  the Vulkan validation layers are silent, synchronisation checks included (those of 1.3.239
 //   see a read
@@ -55,7 +57,7 @@ struct CheckResult {
 std::vector<std::string> conformance_checks();
 
 // Runs the checks, telling each result as it comes. A method without `create` is loaded from its library, in
-// the checking process only. The caller has neither threads nor a Vulkan device (base/child.h). Throws
+// the checking process only. The caller has neither threads nor a Vulkan device (base/supervise.h). Throws
 // Error(device) without a usable device, Error(plugin) for a plugin that is refused, Error(usage) for an
 // unknown check.
 std::vector<CheckResult> check_conformance(const MethodInfo& method, const ConformanceOptions& options,

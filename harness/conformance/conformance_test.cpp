@@ -34,6 +34,8 @@ enum class Fault {
   no_barrier,           // a dispatch reads the lights just written, without a barrier between
   past_lights,          // one light too many
   past_scratch,         // the same in a scratch buffer
+  far_past_lights,      // the last light 4 MiB behind the lights
+  far_past_scratch,     // the same in a scratch buffer
   unnamed_pass,         // a pass that is not one of Steps
   outside_pass,         // a dispatch in no pass
   passes_change,        // the first frame has one pass more
@@ -82,6 +84,10 @@ const char* fault_in_kernel() {
       return "v.power *= 2.0;";
     case Fault::flux_doubled:
       return "v.power *= 2.0; v.flux *= 2.0;";
+    case Fault::far_past_lights:
+      return "if (i + 1u == count) lights[i + 40000u] = v;";
+    case Fault::far_past_scratch:
+      return "if (parameter[2] > 0.0 && i + 1u == count) lights[i + 40000u] = v;";
     case Fault::gain_at_end:
       return "v.flux.x /= parameter[1] < 1.0 ? 1.0 : 0.0;";
     default:
@@ -109,13 +115,14 @@ class Faulty : public Method {
     }
     if (fault == Fault::grows) kept_.emplace_back(context_.device(), "kept", 4096);
     Recorder& r = steps.recorder();
-    if (fault == Fault::unnamed_pass) return r.pass("sample", [&] { dispatch(r, field, target, 0); });
+    if (fault == Fault::unnamed_pass)
+      return r.pass({.step = "sample"}, [&] { dispatch(r, field, target, 0); });
     if (fault == Fault::outside_pass) return dispatch(r, field, target, 0);
     if (fault == Fault::passes_change && frames_ == 0) steps.pass("prepare", [] {});
     steps.pass("sample", [&] {
-      if (fault == Fault::past_scratch) {
+      if (fault == Fault::past_scratch || fault == Fault::far_past_scratch) {
         const Buffer& copy = context_.scratch("copy", target.count * sizeof(gpu::Vpl));
-        dispatch(r, field, {&copy, target.count, target.shift}, 1);
+        dispatch(r, field, {&copy, target.count, target.shift}, fault == Fault::past_scratch ? 1 : 0, 1);
       }
       dispatch(r, field, target, fault == Fault::past_lights ? 1 : 0);
       if (fault == Fault::no_barrier) {
@@ -132,7 +139,7 @@ class Faulty : public Method {
   void end_badly() const {
     ::signal(SIGSEGV, SIG_DFL);
     if (fault == Fault::crashes_on_a_column) ::raise(SIGSEGV);
-    if (fault == Fault::loses_device) throw Error(ErrorKind::device, "the device was lost");
+    if (fault == Fault::loses_device) throw Error(ErrorKind::device_lost, "the device was lost");
     if (fault == Fault::leaves) ::_exit(0);
   }
 
@@ -143,22 +150,22 @@ class Faulty : public Method {
     return 1 + (mark == 0 ? 0.0f : 1e-3f) + (count ? 1e-4f * static_cast<float>(frames_) : 0.0f);
   }
 
-  void dispatch(Recorder& r, const Field& field, const LightTarget& target, uint32_t too_many) {
+  void dispatch(Recorder& r, const Field& field, const LightTarget& target, uint32_t too_many,
+                float is_copy = 0) {
     const struct {
       gpu::Emitter emitter;
       uint32_t count, step;
       glm::uvec2 shift;
-      float scale, gain, unused[2];
+      float scale, gain, is_copy, unused;
     } push{field.emitter,
            target.count + too_many,
            lattice_step(target.count),
            fault == Fault::seed_ignored ? glm::uvec2(0) : target.shift,
            scale(),
            gain_,
-           {}};
-    const auto& m = field.maps;
-    r.dispatch(kernel_, {*m[0], *m[1], *m[2], *m[3], *m[4], *field.pdf, *target.buffer}, push,
-               groups_for(push.count, 64));
+           is_copy,
+           0};
+    r.dispatch(kernel_, {field.maps, *field.pdf, *target.buffer}, push, groups_for(push.count, 64));
   }
 
   MethodContext& context_;
@@ -221,8 +228,8 @@ TEST(Conformance, NanLightsAreFoundInAHalfAndInAFrame) {
   expect(Fault::nan_without_pdf, {"lights", "image"},
          "half rsm 7×5, N = 35, PDF zero everywhere: light 0 has power nan; expected a finite number ≥ 0\n");
   expect(Fault::nan_position, {"lights", "image"},
-         "scene cornell, 64×36, RSM 40×40, N = 64: 160 lights hold a NaN, 0 an Inf, the first is light 0 of "
-         "generate.gbuffer; expected finite lights\n");
+         "scene cornell, 64×36, RSM 40×40, N = 64: 160 lights with a NaN and 0 with an Inf, the first is "
+         "light 0 of generate.gbuffer; expected finite numbers\n");
 }
 
 // Before any input; said in full once.
@@ -287,6 +294,14 @@ TEST(Conformance, AWritePastTheLightsOrScratchIsFound) {
          "half rsm 7×5, N = 35: byte 0 past the end of scratch buffer 'copy' (3920 bytes) was written");
 }
 
+TEST(Conformance, AWriteFarPastTheLightsOrScratchIsFound) {
+  expect(Fault::far_past_lights, {"bounds"},
+         "half rsm 33×17, N = 561: byte 4479888 past the end of the lights (62832 bytes) was written");
+  expect(Fault::far_past_scratch, {"bounds"},
+         "half rsm 33×17, N = 561: byte 4479888 past the end of scratch buffer 'copy' (62832 bytes) was "
+         "written");
+}
+
 TEST(Conformance, AnUnnamedPassAndADispatchOutsideAnyAreFound) {
   expect(Fault::unnamed_pass, {"passes"}, "a pass is named 'sample'; expected generate.rsm.<step>\n");
   expect(Fault::outside_pass, {"passes"}, "1 dispatches are outside any pass");
@@ -316,7 +331,8 @@ TEST(Conformance, AHangCostsItsCheckOnly) {
 
 TEST(Conformance, ALostDeviceOrAnEarlyEndCostsItsCheckOnly) {
   expect(Fault::loses_device, {"lights", "bounds"}, "the device was lost (on half gbuffer 1×64, N = 64)\n");
-  expect(Fault::leaves, {"lights", "bounds"}, "ended the process (on half gbuffer 1×64, N = 64)\n");
+  expect(Fault::leaves, {"lights", "bounds"},
+         "ended the process (exit code 0) (on half gbuffer 1×64, N = 64)\n");
 }
 
 TEST(Conformance, RefusesWhatItCantRun) {

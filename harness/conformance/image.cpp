@@ -33,7 +33,7 @@ class SceneFrames {
 
 Image render(Frame& frame, uint32_t seed) {
   frame.render(seed);
-  return frame.indirect();
+  return frame.results().indirect();
 }
 
 std::string pixel_name(const Image& image, size_t i) {
@@ -63,13 +63,11 @@ std::string bad_pixel(const Image& image, bool black) {
 // finite may leave no trace in the image.
 std::string fault_of(Frame& frame, const Image& image, bool black) {
   if (const auto bad = bad_pixel(image, black); !bad.empty()) {
-    const std::string pass = frame.first_bad_pass();
-    return bad + (pass.empty() ? "" : "; first bad pass: " + pass);
+    const auto pass = frame.results().first_bad_pass();
+    return bad + (pass ? fmt::format("; first bad pass: {}", *pass) : "");
   }
-  const LightHealth lights = frame.light_health();
-  if (lights.nan + lights.inf == 0) return "";
-  return fmt::format("{} lights hold a NaN, {} an Inf, the first is light {} of {}; expected finite lights",
-                     lights.nan, lights.inf, lights.first_bad, lights.first_bad_pass);
+  const auto values = frame.results().bad_values();
+  return values ? values->message() + "; expected finite numbers" : "";
 }
 
 void check_repeated(Inspection& inspection, const Scene& scene) {

@@ -133,8 +133,7 @@ oracle::Half ConformanceInput::make() const {
 }
 
 bool ConformanceInput::powerless(LightKind kind) const {
-  // A VPL's power is its incident flux, whatever the surface reflects.
-  const bool black = surface == Surface::black && kind == LightKind::vsgl;
+  const bool black = surface == Surface::black && !info_of(kind).power_is_incident;
   return surface == Surface::none || pdf == Pdf::zero || light == Light::off || black;
 }
 

@@ -4,6 +4,12 @@
 
 namespace vsglbench {
 
+Json to_json(const CheckNews& news) { return {{"kind", static_cast<int>(news.kind)}, {"text", news.text}}; }
+
+void from_json(const Json& json, CheckNews* news) {
+  *news = {static_cast<CheckNews::Kind>(json.at("kind").get<int>()), json.at("text")};
+}
+
 bool Inspection::uses_importance() { return make()->method().uses_importance(); }
 
 std::vector<Half> Inspection::halves() {
@@ -12,13 +18,13 @@ std::vector<Half> Inspection::halves() {
 
 void Inspection::on(const std::string& input, const std::function<void()>& body, bool large) {
   input_ = input;
-  parent_.send({{"input", input}});
+  worker_.now({0, "on " + input, options_.silence_s}, {CheckNews::Kind::input, input});
   try {
     body();
   } catch (const Error& e) {
-    if (e.kind() == ErrorKind::device) throw;
+    if (e.kind() == ErrorKind::device_lost) throw;
     if (large && e.kind() == ErrorKind::case_failed) {
-      parent_.send({{"left_out", fmt::format("{}: {}", input_, e.what())}});
+      tell(CheckNews::Kind::left_out, e.what());
     } else {
       found_thrown(e.what());
     }
@@ -33,12 +39,11 @@ void Inspection::found_thrown(const std::string& what) {
   found(fmt::format("threw \"{}\"; expected lights", what));
 }
 
-void Inspection::found(const std::string& fault) {
-  parent_.send({{"failure", fmt::format("{}: {}", input_, fault)}});
-}
+void Inspection::found(const std::string& fault) { tell(CheckNews::Kind::failure, fault); }
+void Inspection::measured(const std::string& figure) { tell(CheckNews::Kind::measured, figure); }
 
-void Inspection::measured(const std::string& figure) {
-  parent_.send({{"measured", fmt::format("{}: {}", input_, figure)}});
+void Inspection::tell(CheckNews::Kind kind, const std::string& text) {
+  worker_.tell({kind, fmt::format("{}: {}", input_, text)});
 }
 
 }  // namespace vsglbench

@@ -3,18 +3,29 @@
 
 #include <functional>
 
-#include "base/child.h"
+#include "base/supervise.h"
+#include "conformance/conformance.h"
 #include "conformance/run.h"
 
 namespace vsglbench {
 
+// What a check tells as it goes.
+struct CheckNews {
+  enum class Kind { input, failure, left_out, measured };
+  Kind kind = Kind::input;
+  std::string text;  // as in CheckResult; of an input its name
+};
+Json to_json(const CheckNews& news);
+void from_json(const Json& json, CheckNews* news);
+
 class Inspection {
  public:
-  Inspection(Device& device, const MethodInfo& info, bool large, const ToParent& parent)
-      : device_(device), info_(info), large_(large), parent_(parent), kernels_(device) {}
+  Inspection(Device& device, const MethodInfo& info, const ConformanceOptions& options,
+             const Worker<CheckNews>& worker)
+      : device_(device), info_(info), options_(options), worker_(worker), kernels_(device) {}
   Device& device() { return device_; }
   const MethodInfo& info() const { return info_; }
-  bool wants_large() const { return large_; }
+  bool wants_large() const { return options_.large; }
   KernelLibrary& kernels() { return kernels_; }
 
   // A new Method, with kernels that others of this inspection have compiled.
@@ -25,7 +36,7 @@ class Inspection {
   bool uses_importance();
   std::vector<Half> halves();
 
-  // Tells the parent which input comes, then runs `body`. What `body` throws is a failure of this input, but
+  // Tells which input comes, then runs `body`. What `body` throws is a failure of this input, but
   // for a lost device, which ends the check. `large`: a device without room for it leaves it out.
   void on(const std::string& input, const std::function<void()>& body, bool large = false);
   // A fault on the present input: "<what came>; expected <what>".
@@ -35,10 +46,11 @@ class Inspection {
 
  private:
   void found_thrown(const std::string& what);
+  void tell(CheckNews::Kind kind, const std::string& text);
   Device& device_;
   const MethodInfo& info_;
-  bool large_;
-  const ToParent& parent_;
+  const ConformanceOptions& options_;
+  const Worker<CheckNews>& worker_;
   KernelLibrary kernels_;
   std::string input_;
   std::string thrown_;  // last

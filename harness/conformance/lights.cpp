@@ -6,9 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame/light_flux.h"
-#include "method/oracle.h"
-
 namespace vsglbench {
 namespace {
 
@@ -52,19 +49,22 @@ class Judge {
   std::string fault_;
 };
 
-double carried_power(const gpu::Vsgl& v) { return reflected_power(v); }
-double carried_power(const gpu::Vpl& v) { return oracle::luminance(glm::dvec3(v.flux)); }
-
 void compare_power(Judge& judge, double stated, double carried) {
   if (!(std::abs(stated - carried) <= kPowerTolerance * carried))
     judge.found("states a power of {:.6g} W but carries {:.6g} W; expected the same", stated, carried);
 }
 
-template <class Light>
-Light record(const LightRecords& lights, size_t i) {
-  Light light;
-  std::memcpy(&light, &lights.bytes[i * sizeof light], sizeof light);
-  return light;
+// What any light must keep to: of a kind whose record has no rules of its own below.
+template <class Record>
+std::string fault_of(const Record& light) {
+  const LightSummary s = summary_of(light);
+  Judge judge;
+  judge.not_negative("power", s.power);
+  judge.finite("position", s.position);
+  judge.not_negative("variance", s.variance);
+  judge.not_negative("radius", s.radius);
+  compare_power(judge, s.power, s.carried);
+  return judge.fault();
 }
 
 bool unwritten(const LightRecords& lights, size_t i) {
@@ -74,19 +74,7 @@ bool unwritten(const LightRecords& lights, size_t i) {
   return std::ranges::all_of(words, [](uint32_t word) { return word == unwritten_word; });
 }
 
-template <class Light>
-std::string fault_in(const LightRecords& lights, size_t i, bool powerless) {
-  if (unwritten(lights, i)) return "was not written; expected each of the lights asked for";
-  const auto light = record<Light>(lights, i);
-  if (std::string fault = fault_of(light); !fault.empty()) return fault;
-  const double power = std::max(double(light.power), carried_power(light));
-  return powerless && power > 0 ? fmt::format("has a power of {:.6g} W; expected no power", power) : "";
-}
-
 }  // namespace
-
-gpu::Vsgl LightRecords::vsgl(size_t i) const { return record<gpu::Vsgl>(*this, i); }
-gpu::Vpl LightRecords::vpl(size_t i) const { return record<gpu::Vpl>(*this, i); }
 
 std::string fault_of(const gpu::Vsgl& v) {
   Judge judge;
@@ -106,7 +94,7 @@ std::string fault_of(const gpu::Vsgl& v) {
   } else {
     judge.not_negative("variance", v.variance);
   }
-  compare_power(judge, v.power, carried_power(v));
+  compare_power(judge, v.power, summary_of(v).carried);
   return judge.fault();
 }
 
@@ -127,17 +115,22 @@ std::string fault_of(const gpu::Vpl& v) {
     judge.unit("incident direction", v.incident);
     if (v.ndf == 0) judge.found("has ndf 0; expected a GGX alpha > 0 or minus a Phong exponent");
   }
-  compare_power(judge, v.power, carried_power(v));
+  compare_power(judge, v.power, summary_of(v).carried);
   return judge.fault();
 }
 
 std::string first_fault(const LightRecords& lights, bool powerless) {
-  for (size_t i = 0; i < lights.count(); ++i) {
-    const std::string fault = lights.kind == LightKind::vsgl ? fault_in<gpu::Vsgl>(lights, i, powerless)
-                                                             : fault_in<gpu::Vpl>(lights, i, powerless);
-    if (!fault.empty()) return fmt::format("light {} {}", i, fault);
-  }
-  return "";
+  std::string first;
+  lights.each([&](size_t i, const auto& light) {
+    if (!first.empty()) return;
+    std::string fault =
+        unwritten(lights, i) ? "was not written; expected each of the lights asked for" : fault_of(light);
+    const double power = std::max(double(light.power), summary_of(light).carried);
+    if (fault.empty() && powerless && power > 0)
+      fault = fmt::format("has a power of {:.6g} W; expected no power", power);
+    if (!fault.empty()) first = fmt::format("light {} {}", i, fault);
+  });
+  return first;
 }
 
 std::string first_difference(const LightRecords& a, const LightRecords& b) {
@@ -151,14 +144,9 @@ std::string first_difference(const LightRecords& a, const LightRecords& b) {
 
 LightPower sum_power(const LightRecords& lights) {
   LightPower sum;
-  for (size_t i = 0; i < lights.count(); ++i) {
-    if (lights.kind == LightKind::vsgl) {
-      sum.stated += lights.vsgl(i).power;
-      sum.carried += carried_power(lights.vsgl(i));
-    } else {
-      sum.stated += lights.vpl(i).power;
-      sum.carried += carried_power(lights.vpl(i));
-    }
+  for (const LightSummary& light : summaries_of(lights)) {
+    sum.stated += light.power;
+    sum.carried += light.carried;
   }
   return sum;
 }

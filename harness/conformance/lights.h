@@ -1,24 +1,11 @@
 // Inside the conformance kit: what one light record must keep to, and what power it carries.
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "method/method.h"
+#include "frame/light_records.h"
 
 namespace vsglbench {
-
-// As they came from the device: `count` records of light_stride(kind) bytes.
-struct LightRecords {
-  LightKind kind = LightKind::vsgl;
-  std::vector<std::byte> bytes;
-  size_t count() const { return bytes.size() / light_stride(kind); }
-  gpu::Vsgl vsgl(size_t i) const;
-  gpu::Vpl vpl(size_t i) const;
-  bool operator==(const LightRecords&) const = default;
-};
 
 // What is wrong with a light, as in "has variance nan; expected a finite number > 0"; empty: nothing.
 std::string fault_of(const gpu::Vsgl& light);
@@ -31,7 +18,7 @@ std::string first_fault(const LightRecords& lights, bool powerless);
 // "light 4 differs" for the first that does; empty: equal to the bit.
 std::string first_difference(const LightRecords& a, const LightRecords& b);
 
-// Σ power as the lights state it, and as their lobes carry it (VSGL: luminance of Σ c A(λ); VPL: of Φ), W.
+// Σ power as the lights state it, and as they carry it (LightSummary), W.
 struct LightPower {
   double stated = 0, carried = 0;
 };

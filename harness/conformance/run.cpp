@@ -12,14 +12,14 @@ namespace vsglbench {
 namespace {
 
 constexpr size_t kGuardBytes = 4096;
+constexpr size_t kWideGuard = 64 << 20, kAllWideGuards = 512 << 20;
 constexpr uint32_t kGuardWord = 0x5AFE5AFEu;
 constexpr uint32_t kLeftoverWord = 0x7FC0FFEEu;  // a NaN, and a large index
 
 // Writes `inside` up to byte `end`, and guard words from there on.
 void write_guarded(Buffer& buffer, size_t end, uint32_t inside) {
-  std::vector<uint32_t> words(buffer.size() / 4, kGuardWord);
-  std::fill_n(words.begin(), end / 4, inside);
-  buffer.upload(std::span<const uint32_t>(words));
+  buffer.fill(inside, end, 0);
+  buffer.fill(kGuardWord, buffer.size() / 4 * 4 - end, end);
 }
 
 // Byte of the first guard word that was written, counted from `end`; -1: none was. Recorder::fill() writes
@@ -93,7 +93,8 @@ MethodRun::MethodRun(KernelLibrary& kernels, const MethodInfo& info, const Json&
       scratch_(kernels.device()),
       recorder_(kernels.device()),
       context_(kernels, scratch_, info.folder),
-      method_(create(info, context_, resolve_parameters(info, parameters))) {
+      method_(create(info, context_, resolve_parameters(info, parameters))),
+      guard_bytes_(kGuardBytes) {
   if (!method_) throw std::logic_error("`create` made no method");
 }
 
@@ -104,7 +105,7 @@ HalfOutput MethodRun::frame(const DeviceHalf& texels, Half half, uint32_t wanted
   const uint32_t count = method_->light_count(wanted, field.texels());
   const size_t bytes = count * light_stride(method_->kind());
   // Never less than what a buffer rounds up to, so that the guard is where it is looked for.
-  Buffer lights(kernels_.device(), "lights", bytes + kGuardBytes);
+  Buffer lights(kernels_.device(), "lights", bytes + guard_behind(bytes));
   write_guarded(lights, bytes, unwritten_word);
   HalfOutput out;
   recorder_.begin();
@@ -115,18 +116,28 @@ HalfOutput MethodRun::frame(const DeviceHalf& texels, Half half, uint32_t wanted
     out.dispatches_outside = watch.outside();
   }
   out.passes = recorder_.submit_and_wait().passes;
-  out.lights.kind = method_->kind();
-  out.lights.bytes.resize(bytes);
-  lights.download(out.lights.bytes.data(), bytes);
+  out.lights = read_lights(method_->kind(), lights, count);
   out.overrun = describe_overrun("the lights", bytes, first_overrun(lights, bytes));
   if (out.overrun.empty()) out.overrun = overrun_scratch();
   return out;
 }
 
+void MethodRun::widen_guards(const MethodRun& other) {
+  const size_t buffers = other.context_.scratch_buffers().size() + 1;
+  guard_bytes_ = std::min(kWideGuard, kAllWideGuards / buffers / 4 * 4);
+}
+
+// What the device can bind behind so many bytes.
+size_t MethodRun::guard_behind(size_t bytes) const {
+  const uint64_t range = kernels_.device().info().max_storage_range;
+  const uint64_t room = range > bytes + kGuardBytes ? (range - bytes) / 4 * 4 : kGuardBytes;
+  return std::min<uint64_t>(guard_bytes_, room);
+}
+
 void MethodRun::guard_scratch_like(MethodRun& other) {
   for (const auto& [name, last] : other.context_.scratch_buffers()) {
-    const size_t bytes = other.scratch_.get(name, 0).size() / 4 * 4;  // the most that was asked for
-    write_guarded(scratch_.get(name, bytes + kGuardBytes), bytes, kLeftoverWord);
+    const size_t bytes = last.buffer->size() / 4 * 4;  // the most that was asked for
+    write_guarded(scratch_.get(name, bytes + guard_behind(bytes)), bytes, kLeftoverWord);
     guarded_[name] = bytes;
   }
 }

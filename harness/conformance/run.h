@@ -29,15 +29,20 @@ class MethodRun {
   // Makes the scratch buffers that `other` has asked for, full of what another case could have left there and
   // longer by guard words, which frame() then looks at. Before the first frame.
   void guard_scratch_like(MethodRun& other);
+  // From now on the guards are as long as the device and the host can well bear: a write far past the end of
+  // a buffer ends in its own guard. Before guard_scratch_like().
+  void widen_guards(const MethodRun& other);
 
  private:
   std::string overrun_scratch();
+  size_t guard_behind(size_t bytes) const;
   KernelLibrary& kernels_;
   ScratchPool scratch_;
   Recorder recorder_;
   MethodContext context_;
   std::unique_ptr<Method> method_;
   std::map<std::string, size_t> guarded_;  // bytes before the guard, by name
+  size_t guard_bytes_;
 };
 
 }  // namespace vsglbench

@@ -15,7 +15,7 @@ struct FigureOrder {
   Json config;                                   // checked
   std::filesystem::path assets;                  // where downloaded scenes lie
   std::filesystem::path folder;                  // for the files; exists
-  std::string device;                            // index or part of a name; empty: the first usable
+  std::string device;                            // as in select_device()
   double silence_s = 600;                        // that one step may take
   std::function<void(const DeviceInfo&)> admit;  // throws for what is too large for the device; may be empty
 };
@@ -27,9 +27,13 @@ struct DrawnFigure {
   Json device;  // name, type, driver, driver_version
 };
 
+// As messages of the process that draws.
+Json to_json(const DrawnFigure& drawn);
+void from_json(const Json& json, DrawnFigure* drawn);
+
 // For a process without threads and without a Vulkan device: it forks. Throws Error(device) where no device
-// can be opened; else "figure NAME, method METHOD: ..." of the kind of what was wrong, Error(case_failed) for
-// a process that crashed or was stopped, and for a device that was lost.
+// can be opened; else "figure NAME, method METHOD: ..." of the kind of what was wrong, Error(crashed) or
+// Error(timeout) for a process that crashed or was stopped, Error(case_failed) for a device that was lost.
 DrawnFigure draw_figure(const FigureOrder& order);
 
 }  // namespace vsglbench

@@ -1,8 +1,8 @@
 #include "figure/figure.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
@@ -16,14 +16,6 @@ constexpr std::pair<const char*, MakeFigure> kFigures[] = {{"sgl22-1", sgl22::wa
                                                            {"sgl22-2", sgl22::clamped_cosine},
                                                            {"sgl22-3", sgl22::hemisphere},
                                                            {"sgl22-4", sgl22::lights}};
-
-// A cell in quotes where it needs them (RFC 4180).
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-  std::string out(1, '"');
-  for (const char c : cell) out.append(c == '"' ? 2 : 1, c);
-  return out += '"';
-}
 
 }  // namespace
 
@@ -42,12 +34,8 @@ const char* finding_name(Finding finding) {
 std::string FigureTable::cell(double value) { return fmt::format("{:.10g}", value); }
 
 std::string FigureTable::csv() const {
-  std::string out = fmt::format("{}\n", fmt::join(columns, ","));
-  for (const auto& row : rows) {
-    std::vector<std::string> cells;
-    for (const auto& cell : row) cells.push_back(quoted(cell));
-    out += fmt::format("{}\n", fmt::join(cells, ","));
-  }
+  std::string out = csv_row(columns);
+  for (const auto& row : rows) out += csv_row(row);
   return out;
 }
 
@@ -75,9 +63,13 @@ std::vector<std::filesystem::path> write_figure(const FigureOutput& figure,
     paths.push_back(folder / (table.name + ".csv"));
     write_text(paths.back(), table.csv());
   }
+  const Gnuplot gnuplot;
   for (const auto& [name, plot] : figure.plots) {
-    paths.push_back(folder / (name + ".svg"));
-    write_text(paths.back(), to_svg(plot));
+    for (const auto& [format, ending] :
+         {std::pair(PlotFormat::svg, ".svg"), {PlotFormat::png, "-plot.png"}}) {
+      paths.push_back(folder / (name + ending));
+      write_text(paths.back(), draw_plot(gnuplot, plot, format));
+    }
   }
   for (const auto& [name, bitmap] : figure.images) {
     paths.push_back(folder / (name + ".png"));

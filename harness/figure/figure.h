@@ -46,8 +46,8 @@ struct Claim {
 
 struct FigureOutput {
   std::vector<FigureTable> tables;
-  std::vector<std::pair<std::string, Plot>> plots;     // by the file's name, without ".svg"
-  std::vector<std::pair<std::string, Bitmap>> images;  // by the file's name, without ".png"
+  std::vector<std::pair<std::string, Plot>> plots;     // NAME.svg and NAME-plot.png
+  std::vector<std::pair<std::string, Bitmap>> images;  // NAME.png
   std::vector<Claim> claims;
 };
 
@@ -62,8 +62,8 @@ struct FigureInputs {
 const std::vector<std::string>& figure_names();
 
 // Reads and checks the config of a figure, with its scene's name, method, parameters and N; a width or height
-// that is not 0 replaces its own. Throws Error(config) "FILE:LINE: ...", Error(usage) for a size where the
-// figure has none, or one beyond the config's limits.
+// that is not 0 replaces its own. Throws Error(config) "FILE:LINE: ...", Error(usage) for a size beyond the
+// config's limits.
 Json load_figure_config(const std::filesystem::path& path, uint32_t width, uint32_t height);
 
 // Throws Error(scene), Error(plugin) or Error(case_failed), by what fails.

@@ -35,10 +35,8 @@ const std::string& figure_name(const JsonDocument& document) {
 // Of a scene that is named, its view, too; what a path leads to shows when it is loaded.
 void check_scene_name(const JsonDocument& document) {
   const std::string scene = document.root().at("scene");
-  const size_t colon = scene.rfind(':'), slash = scene.rfind('/');
-  const bool has_view = colon != std::string::npos && (slash == std::string::npos || colon > slash);
-  const std::string name = scene.substr(0, has_view ? colon : scene.npos);
-  if (slash != std::string::npos || name.ends_with(".json")) {
+  const auto [name, chosen] = parse_scene_name(scene);
+  if (is_path(name)) {
     std::error_code ec;
     if (!std::filesystem::exists(name, ec))
       throw document.error("/scene", fmt::format("no scene '{0}': {0} does not exist", name));
@@ -48,7 +46,7 @@ void check_scene_name(const JsonDocument& document) {
   for (const SceneInfo& info : list_scenes({data_root() / "scenes", {}})) {
     names.push_back(info.name);
     if (info.name != name) continue;
-    const std::string view = has_view ? scene.substr(colon + 1) : info.default_view;
+    const std::string view = chosen.value_or(info.default_view);
     if (std::ranges::count(info.views, view) > 0) return;
     throw document.error("/scene",
                          fmt::format("{} has no view '{}'{}", name, view, suggestion(view, info.views)));
@@ -106,12 +104,13 @@ void check_method(const JsonDocument& document) {
 void replace_size(const Json& schema, const std::string& key, uint32_t size, Json* config) {
   if (size == 0) return;
   const std::string name = config->at("figure");
-  if (!config->contains(key)) {
-    throw fail(ErrorKind::usage, "--{} means nothing to {}: it has no image", key, name);
-  }
-  const auto most = schema.at("properties").at(key).at("maximum").get<uint32_t>();
+  const Json& limits = schema.at("properties").at(key);
+  const auto least = limits.at("minimum").get<uint32_t>(), most = limits.at("maximum").get<uint32_t>();
   if (size > most) {
     throw fail(ErrorKind::usage, "--{} {} is too large for {}; make it at most {}", key, size, name, most);
+  }
+  if (size < least) {
+    throw fail(ErrorKind::usage, "--{} {} is too small for {}; make it at least {}", key, size, name, least);
   }
   (*config)[key] = size;
 }

@@ -54,7 +54,7 @@ void expect_whole(const FigureOutput& figure) {
     EXPECT_FALSE(t.rows.empty()) << t.name;
     for (const auto& row : t.rows) EXPECT_EQ(row.size(), t.columns.size()) << t.name;
   }
-  for (const auto& [name, plot] : figure.plots) EXPECT_TRUE(to_svg(plot).ends_with("</svg>\n")) << name;
+  for (const auto& [name, plot] : figure.plots) EXPECT_NO_THROW(plot_script(plot, PlotFormat::svg)) << name;
 }
 
 }  // namespace

@@ -138,6 +138,8 @@ FigureOutput clamped_cosine(const FigureInputs& inputs) {
   }
   plot.notes = {"Formulas in double precision. The GPU's values are of L(v,κ), held to [0,1]."};
   closeup.notes = plot.notes;
+  set_size(inputs.config, &plot);
+  set_size(inputs.config, &closeup);
   out.tables = {table, parameters()};
   out.plots = {{"sgl22-2", plot}, {"sgl22-2-closeup", closeup}};
   const double found = least_argument(1e-6, 1e-1, error_bound);

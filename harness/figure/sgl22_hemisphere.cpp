@@ -106,6 +106,7 @@ FigureOutput hemisphere(const FigureInputs& inputs) {
     plot.curves.push_back(std::move(curve));
     measured.push_back(on_device);
   }
+  set_size(inputs.config, &plot);
   out.tables = {table};
   out.plots = {{"sgl22-3", plot}};
   out.claims = {large_claim(kappa, measured[0], measured[1]), small_claim(measured[0], measured[1])};

@@ -46,13 +46,9 @@ std::vector<std::unique_ptr<Frame>> make_frames(
 
 // The image of a frame just rendered. Throws Error(case_failed) for lights or pixels that are not finite.
 Image finite_image(const Frame& frame, const std::string& model) {
-  const LightHealth lights = frame.light_health();
-  if (!lights.first_bad_pass.empty()) {
-    throw fail(ErrorKind::case_failed,
-               "its lights are not finite: {} with a NaN, {} with an Inf; the first is light {} of {}",
-               lights.nan, lights.inf, lights.first_bad, lights.first_bad_pass);
-  }
-  Image image = frame.indirect();
+  if (const auto bad = frame.results().bad_values())
+    throw fail(ErrorKind::case_failed, "not finite: {}", bad->message());
+  Image image = frame.results().indirect();
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const glm::vec3& p = image.pixels[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
@@ -65,7 +61,8 @@ Image finite_image(const Frame& frame, const std::string& model) {
 // What the camera sees, on the host, and its light by quadrature in double precision.
 class ExactPixels {
  public:
-  explicit ExactPixels(const Frame& frame) : camera_(frame.camera()), lights_(frame.vsgls()) {
+  explicit ExactPixels(const Frame& frame)
+      : camera_(frame.camera()), lights_(frame.results().lights().all<gpu::Vsgl>()) {
     const auto& targets = frame.gbuffer().maps;
     for (size_t i = 0; i < maps_.size(); ++i) maps_[i] = download_map(targets[i]);
   }
@@ -101,7 +98,7 @@ ModelImages small_images(Stage& stage, const FigureInputs& inputs) {
     out.images.push_back(finite_image(*frame, model));
     if (!out.mask.empty()) continue;
     inputs.begin(fmt::format("quadrature of {}×{} pixels", width, height));
-    out.mask = frame->surface_mask();
+    out.mask = frame->results().surface_mask();
     const ExactPixels exact(*frame);
     out.reference = Image(width, height);
     parallel_for(out.reference.pixels.size(), 0, [&](uint64_t i, unsigned) {
@@ -128,8 +125,8 @@ struct Full {
 };
 
 double shade_time(const FrameTimes& times) {
-  for (const PassTime& pass : times.passes) {
-    if (pass.name == "shade") return pass.ms;
+  for (const auto& [pass, ms] : times.passes) {
+    if (pass.stage == PassStage::shade && pass.step.empty()) return ms;
   }
   throw std::logic_error("a frame without a shade pass");
 }
@@ -264,13 +261,14 @@ FigureOutput lights(const FigureInputs& inputs) {
   const std::string title = fmt::format("{}, {} VSGLs", scene.name, full.lights);
   const std::string size = fmt::format("{}×{}", c["width"].get<int>(), c["height"].get<int>());
   const std::string small = fmt::format("{}×{}", reference.width, reference.height);
-  Plot plot{
-      .title = title + ": time and error of the diffuse models",
-      .x = {fmt::format("SMAPE against quadrature at {} / %", small), true},
-      .y = {fmt::format("shade pass at {} / ms", size), false, true},
-      .notes = {fmt::format("{}; medians of {} interleaved repetitions. Both lobes, diffuse and specular.",
-                            inputs.device.info().name, c["repetitions"].dump())}};
+  Plot plot{.title = title + ": time and error of the diffuse models",
+            .x = {fmt::format("SMAPE against quadrature at {} / %", small), true},
+            .y = {fmt::format("shade pass at {} / ms", size), false, true},
+            .notes = {fmt::format("{}; medians of {} interleaved repetitions and their 95 % intervals. Both "
+                                  "lobes, diffuse and specular.",
+                                  inputs.device.info().name, c["repetitions"].dump())}};
   std::vector<double> smape;
+  std::vector<std::string> more;
   for (size_t k = 0; k < kModels; ++k) {
     const Summary times = summarize(full.times.of(static_cast<exact::DiffuseModel>(k)));
     smape.push_back(measure_errors(images.images[k], reference, images.mask).smape);
@@ -280,11 +278,17 @@ FigureOutput lights(const FigureInputs& inputs) {
               times.median, times.q1, times.q3, times.ci95.lo, times.ci95.hi,
               static_cast<double>(times.samples.size()), static_cast<double>(full.splotches[k]),
               static_cast<double>(reference.width), static_cast<double>(reference.height), smape[k]);
-    if (smape[k] > 0) plot.curves.push_back({model, {{smape[k], times.median}}, CurveStyle::points});
+    if (smape[k] > 0) {
+      plot.curves.push_back({.name = model,
+                             .points = {{smape[k], times.median}},
+                             .style = CurveStyle::points,
+                             .errors = {{{smape[k], times.ci95.lo}, {smape[k], times.ci95.hi}}}});
+    }
+    more.push_back(fmt::format("shade {:.3g} ms at {}", times.median, size));
   }
   out.tables = {table};
   out.plots = {{"sgl22-4", plot}};
-  out.images = {{"sgl22-4", picture(images, title, "diffuse integral by quadrature")}};
+  add_picture(&out, "sgl22-4", images, title, "diffuse integral by quadrature", more);
   out.claims = claims_of(full, smape);
   return out;
 }

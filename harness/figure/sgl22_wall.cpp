@@ -129,13 +129,14 @@ FigureOutput wall(const FigureInputs& inputs) {
   }
   out.tables = {table, profile};
   out.plots = {{"sgl22-1", plot}};
-  out.images = {
-      {"sgl22-1", picture(images, "A sharp SG light close to a wall", "quadrature, double precision")}};
+  add_picture(&out, "sgl22-1", images, "A sharp SG light close to a wall", "quadrature, double precision");
   out.claims = claims_of(smape);
   return out;
 }
 
-Bitmap picture(const ModelImages& models, const std::string& title, const std::string& reference_detail) {
+void add_picture(FigureOutput* figure, const std::string& name, const ModelImages& models,
+                 const std::string& title, const std::string& reference_detail,
+                 const std::vector<std::string>& more) {
   ContactSheet sheet;
   sheet.title = title;
   sheet.reference_detail = reference_detail;
@@ -145,10 +146,13 @@ Bitmap picture(const ModelImages& models, const std::string& title, const std::s
   sheet.error_range = 0.2f;
   for (size_t k = 0; k < models.images.size(); ++k) {
     const Errors errors = measure_errors(models.images[k], models.reference, models.mask);
-    sheet.entries.push_back({exact::diffuse_model_names()[k], fmt::format("SMAPE {:.3g} %", errors.smape),
-                             models.images[k], std::nullopt});
+    const std::string detail = fmt::format("SMAPE {:.3g} %   RMSE {:.3g}{}", errors.smape, errors.rmse,
+                                           more.empty() ? "" : "\n" + more.at(k));
+    sheet.entries.push_back({exact::diffuse_model_names()[k], detail, models.images[k], std::nullopt});
   }
-  return contact_sheet(sheet);
+  const auto pages = contact_pages(sheet);
+  for (size_t i = 0; i < pages.size(); ++i)
+    figure->images.emplace_back(page_name(name, i, pages.size()), pages[i]);
 }
 
 }  // namespace vsglbench::sgl22

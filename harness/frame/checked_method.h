@@ -12,8 +12,8 @@ inline std::unique_ptr<Method> make_method(const MethodInfo& info, MethodContext
   auto method = info.create(context, parameters);
   if (!method) throw fail(ErrorKind::plugin, "{}: `create` made no method", info.name);
   const LightKind kind = method->kind();
-  if (kind != LightKind::vsgl && kind != LightKind::vpl && kind != LightKind::vsl) {
-    throw fail(ErrorKind::plugin, "{}: kind() is {}, which is neither vsgl nor vpl nor vsl", info.name,
+  if (!is_light_kind(kind)) {
+    throw fail(ErrorKind::plugin, "{}: kind() is {}, which is no kind of light", info.name,
                static_cast<int>(kind));
   }
   return method;

@@ -4,9 +4,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
-layout(set = 0, binding = 5) uniform sampler2D rsm_position_map;
-layout(set = 0, binding = 6, std430) writeonly buffer Direct { vec4 direct[]; };
-layout(set = 0, binding = 7, scalar) uniform Lamp { Emitter lamp; };
+layout(set = 0, binding = AFTER_MAPS) uniform sampler2D rsm_position_map;
+layout(set = 0, binding = AFTER_MAPS + 1, std430) writeonly buffer Direct { vec4 direct[]; };
+layout(set = 0, binding = AFTER_MAPS + 2, scalar) uniform Lamp { Emitter lamp; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {

@@ -5,9 +5,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
-#include "light_kind.glsl"
-layout(set = 0, binding = 5, scalar) readonly buffer Lights { Light lights[]; };
-layout(set = 0, binding = 6, std430) buffer Pdf { float pdf[]; };
+#include "light_shading.glsl"
+layout(set = 0, binding = AFTER_MAPS, scalar) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = AFTER_MAPS + 1, std430) buffer Pdf { float pdf[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint first, count;  // lights [first, first+count) in this dispatch, added to what the ones before gave
@@ -24,6 +24,6 @@ void main() {
   float removed = 0.0;
   for (uint k = first; k < first + count; ++k) sum += shade_light(shader, lights[k], 0u, removed);
   float p = luminance(t.flux * sum);
-  p = surface && p > 0.0 && p < 3e38 ? p : 0.0;
+  p = !surface || p <= 0.0 ? 0.0 : p;  // a NaN or Inf stays: it is for the health gate to see
   pdf[i] = first > 0u ? pdf[i] + p : p;
 }

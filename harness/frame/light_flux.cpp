@@ -38,10 +38,14 @@ dvec3 lobe_reflectance(const glm::vec3& diffuse, const glm::vec3& f0, double ndf
   return dvec3(diffuse) + glm::min(fresnel * (g2 * peak), dvec3(1));
 }
 
-double reflected_power(const gpu::Vsgl& v) {
-  return luminance(dvec3(v.diffuse) * sg_integral(v.diffuse_sharpness) +
-                   dvec3(v.specular) * sg_integral(v.specular_sharpness));
+dvec3 lobe_power(const gpu::Vsgl& v) {
+  return dvec3(v.diffuse) * sg_integral(v.diffuse_sharpness) +
+         dvec3(v.specular) * sg_integral(v.specular_sharpness);
 }
+
+double reflected_power(const gpu::Vsgl& v) { return luminance(lobe_power(v)); }
+
+double incident_power(const gpu::Vpl& v) { return luminance(dvec3(v.flux)); }
 
 double reflected_power(const gpu::Vpl& v) {
   if (!(v.power > 0)) return 0;

@@ -16,8 +16,11 @@ namespace vsglbench {
 glm::dvec3 lobe_reflectance(const glm::vec3& diffuse, const glm::vec3& f0, double ndf, double cosine);
 
 // Of both lobes of a VSGL, ∫ c G = c A(λ); of a VPL or VSL, whose flux is incident, Φ (Rd + Rs).
+glm::dvec3 lobe_power(const gpu::Vsgl& light);  // by channel
 double reflected_power(const gpu::Vsgl& light);
 double reflected_power(const gpu::Vpl& light);
+// Luminance of Φ, W.
+double incident_power(const gpu::Vpl& light);
 
 // Σ over the texels with a surface. `maps`: the half's five targets (shaders/field_maps.glsl), row by row.
 double reflected_power(const gpu::Emitter& emitter, const std::array<std::vector<glm::vec4>, 5>& maps);

@@ -11,8 +11,8 @@ layout(local_size_x = 64) in;
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "vpl_light.glsl"
-layout(set = 0, binding = 5, scalar) buffer Lights { Vsgl lights[]; };
-layout(set = 0, binding = 6, scalar) writeonly buffer Texels { Vpl texels[]; };
+layout(set = 0, binding = AFTER_MAPS, scalar) buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = AFTER_MAPS + 1, scalar) writeonly buffer Texels { Vpl texels[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint count;

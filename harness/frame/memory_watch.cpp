@@ -8,10 +8,10 @@
 
 namespace vsglbench {
 
-void MemoryWatch::arm(const std::string& name, Buffer& buffer, size_t bytes, bool contents) {
+void MemoryWatch::arm(const std::string& name, const Buffer& buffer, size_t bytes, bool contents) {
   const size_t end = (bytes + 3) / 4 * 4, all = (buffer.size() + buffer.guard()) / 4 * 4;
   if (end >= all) return;
-  const size_t guard = std::min(ScratchPool::kGuardBytes, all - end);
+  const size_t guard = std::min(GrowingBuffer::kGuardBytes, all - end);
   const size_t from = contents ? 0 : end;
   buffer.fill(unwritten_word, end + guard - from, from);
   armed_.push_back({name, &buffer, buffer.handle(), end, guard});

@@ -16,7 +16,7 @@ namespace vsglbench {
 class MemoryWatch {
  public:
   // `bytes` of `buffer` are in use, the rest may be longer. `contents`: what is in use is filled too.
-  void arm(const std::string& name, Buffer& buffer, size_t bytes, bool contents);
+  void arm(const std::string& name, const Buffer& buffer, size_t bytes, bool contents);
   // "byte 0 past the end of lights.rsm (640 bytes)" of the first buffer that was written there; empty: none
   // was. Each arm() counts once.
   std::string overrun();

@@ -34,7 +34,7 @@ TEST(MemoryWatch, TheGuardLiesBehindAllThatIsAskedFor) {
   ScratchPool pool(device());
   Buffer& buffer = pool.get("b", 4000);
   EXPECT_EQ(buffer.size(), 4000u);
-  EXPECT_EQ(buffer.guard(), ScratchPool::kGuardBytes);
+  EXPECT_EQ(buffer.guard(), GrowingBuffer::kGuardBytes);
   MemoryWatch watch;
   watch.arm("b", buffer, 4000, false);
   Recorder recorder(device());
@@ -43,7 +43,7 @@ TEST(MemoryWatch, TheGuardLiesBehindAllThatIsAskedFor) {
   recorder.submit_and_wait();
   EXPECT_EQ(watch.overrun(), "");
   watch.arm("b", buffer, 4000, false);
-  buffer.fill(3, 4, 4000 + ScratchPool::kGuardBytes - 4);
+  buffer.fill(3, 4, 4000 + GrowingBuffer::kGuardBytes - 4);
   EXPECT_EQ(watch.overrun(), "byte 16380 past the end of b (4000 bytes)");
 }
 

@@ -106,21 +106,21 @@ void PassCheck::before(const PassRecord& pass) {
         bits = 0;
         stale = true;
       });
-      if (stale) const_cast<Buffer*>(use.buffer)->upload(std::span<const uint32_t>(words));
+      if (stale) use.buffer->upload(std::span<const uint32_t>(words));
     });
   }
 }
 
 void PassCheck::after(const PassRecord& pass) {
   if (bad_) return;
-  if (const DeferredTargets* targets = outputs_.targets(pass.name)) check_targets(pass.name, *targets);
+  if (const DeferredTargets* targets = outputs_.targets(pass.pass)) check_targets(pass.pass, *targets);
   std::set<std::tuple<const Buffer*, const Kernel*, uint32_t>> checked;
   for (const PassRecord::Use& use : pass.uses) {
-    if (!bad_ && checked.insert({use.buffer, use.kernel, use.binding}).second) check(pass.name, use);
+    if (!bad_ && checked.insert({use.buffer, use.kernel, use.binding}).second) check(pass.pass, use);
   }
 }
 
-void PassCheck::check_targets(const std::string& pass, const DeferredTargets& targets) {
+void PassCheck::check_targets(const PassId& pass, const DeferredTargets& targets) {
   for (size_t map = 0; map < targets.maps.size(); ++map) {
     std::vector<uint32_t> words(size_t(targets.width) * targets.height * 4);
     targets.maps[map].download(words.data(), words.size() * sizeof(uint32_t));
@@ -135,7 +135,7 @@ void PassCheck::check_targets(const std::string& pass, const DeferredTargets& ta
   }
 }
 
-void PassCheck::check(const std::string& pass, const PassRecord::Use& use) {
+void PassCheck::check(const PassId& pass, const PassRecord::Use& use) {
   every_array(use, [&](const FloatArray& array) {
     if (bad_) return;
     const FrameOutputs::NamedBuffer named = outputs_.buffer(pass, *use.buffer);
@@ -154,7 +154,7 @@ void PassCheck::check(const std::string& pass, const PassRecord::Use& use) {
 }
 
 // The texel, where the number of elements tells that there is one for each.
-void PassCheck::locate(const std::string& pass, uint64_t elements) {
+void PassCheck::locate(const PassId& pass, uint64_t elements) {
   const auto [base, lights] = outputs_.half(pass);
   if (base.x == 0 || bad_->is_light || elements == lights) return;
   const bool pyramid = elements != uint64_t(base.x) * base.y;

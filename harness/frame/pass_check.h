@@ -14,7 +14,7 @@
 namespace vsglbench {
 
 struct BadOutput {
-  std::string pass;
+  PassId pass;
   std::string buffer;     // "moments1.rsm"; "rsm normal" of a raster pass
   std::string field;      // of the element: "power", "mean.x"; empty where the element is one number
   bool is_nan = true;     // else Inf
@@ -40,9 +40,9 @@ struct FrameOutputs {
     glm::uvec2 texels{0};
     uint64_t lights = 0;
   };
-  std::function<NamedBuffer(const std::string& pass, const Buffer& buffer)> buffer;
-  std::function<HalfSize(const std::string& pass)> half;                   // zeros for a pass of neither half
-  std::function<const DeferredTargets*(const std::string& pass)> targets;  // of a raster pass; else null
+  std::function<NamedBuffer(const PassId& pass, const Buffer& buffer)> buffer;
+  std::function<HalfSize(const PassId& pass)> half;                   // zeros for a pass of neither half
+  std::function<const DeferredTargets*(const PassId& pass)> targets;  // of a raster pass; else null
 };
 
 // After each pass: the targets of a raster pass, and all 32-bit floats of the storage buffers that its
@@ -59,9 +59,9 @@ class PassCheck : public PassObserver {
   void after(const PassRecord& pass) override;
 
  private:
-  void check_targets(const std::string& pass, const DeferredTargets& targets);
-  void check(const std::string& pass, const PassRecord::Use& use);
-  void locate(const std::string& pass, uint64_t elements);
+  void check_targets(const PassId& pass, const DeferredTargets& targets);
+  void check(const PassId& pass, const PassRecord::Use& use);
+  void locate(const PassId& pass, uint64_t elements);
 
   FrameOutputs outputs_;
   std::optional<BadOutput> bad_;

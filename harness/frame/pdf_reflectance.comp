@@ -5,7 +5,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
-layout(set = 0, binding = 5, std430) writeonly buffer Pdf { float pdf[]; };
+layout(set = 0, binding = AFTER_MAPS, std430) writeonly buffer Pdf { float pdf[]; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {

@@ -20,10 +20,6 @@ DeferredTargets::DeferredTargets(Device& device, const std::string& name, uint32
                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
 }
 
-std::array<const DeviceImage*, 5> DeferredTargets::pointers() const {
-  return {&maps[0], &maps[1], &maps[2], &maps[3], &maps[4]};
-}
-
 gpu::Emitter make_emitter(const View& view, uint32_t width, uint32_t height, const glm::vec3& power,
                           bool importance) {
   return {.position = view.position,
@@ -113,10 +109,11 @@ void SceneGpu::make_draws(const Scene& scene) {
 
 void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
                     const DeferredTargets& targets) const {
-  const auto pointers = targets.pointers();
+  std::vector<const DeviceImage*> maps;
+  for (const DeviceImage& map : targets.maps) maps.push_back(&map);
   const VkCommandBuffer commands = recorder.commands();
   const glm::mat4 view_projection = view.view_projection();
-  pipeline_.render(commands, {pointers.begin(), pointers.end()}, targets.depth, [&] {
+  pipeline_.render(commands, maps, targets.depth, [&] {
     const VkBuffer vertices = vertices_.handle();
     const VkDeviceSize zero = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
@@ -125,12 +122,10 @@ void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
       const auto texture = [&](int slot) -> const DeviceImage& {
         return draw.textures[slot] < 0 ? white_ : textures_[draw.textures[slot]];
       };
-      const Binding bindings[] = {texture(0), texture(1), texture(2), viewer, face_normals_};
-      pipeline_.layout().bind(commands, recorder.descriptors(), VK_PIPELINE_BIND_POINT_GRAPHICS, bindings,
-                              "gbuffer.frag");
       gpu::DrawPush push = draw.push;
       push.view_projection = view_projection;
-      pipeline_.layout().push_constants(commands, &push, sizeof push);
+      pipeline_.bind(commands, recorder.descriptors(),
+                     {texture(0), texture(1), texture(2), viewer, face_normals_}, push);
       vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, 0, 0);
     }
   });

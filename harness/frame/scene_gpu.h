@@ -6,19 +6,20 @@
 
 #include "gpu/raster.h"
 #include "gpu/recorder.h"
+#include "method/method.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 #include "shaders/types.h"
 
 namespace vsglbench {
 
-// The five RGBA32F targets of one half and their depth (shaders/field_maps.glsl).
+// The five targets of one half, in the order of FieldMaps, and their depth.
 struct DeferredTargets {
   DeferredTargets(Device& device, const std::string& name, uint32_t width, uint32_t height);
   uint32_t width, height;
   std::array<DeviceImage, 5> maps;
   DeviceImage depth;
-  std::array<const DeviceImage*, 5> pointers() const;
+  FieldMaps field_maps() const { return {&maps[0], &maps[1], &maps[2], &maps[3], &maps[4]}; }
 };
 
 // The parameters of a view as the shaders read them. `importance`: every texel emits 1/(width height)

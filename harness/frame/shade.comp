@@ -6,14 +6,14 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
 #include "field.glsl"
-#include "light_kind.glsl"
+#include "light_shading.glsl"
 #include "random.glsl"
 #ifndef BIAS_REDUCTION
 #define BIAS_REDUCTION 0
 #endif
-layout(set = 0, binding = 5, scalar) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = AFTER_MAPS, scalar) readonly buffer Lights { Light lights[]; };
 // rgb: radiance; a: luminance that a clamp removed, or the number of lights that bias reduction cancelled.
-layout(set = 0, binding = 6, std430) buffer Indirect { vec4 indirect[]; };
+layout(set = 0, binding = AFTER_MAPS + 1, std430) buffer Indirect { vec4 indirect[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint first, count;    // lights [first, first+count) in this dispatch
@@ -27,13 +27,13 @@ layout(push_constant, scalar) uniform Push {
   float alpha;          // of the bias reduction
 };
 #if VISIBILITY == 1
-layout(set = 0, binding = 7 + BIAS_REDUCTION, std430) readonly buffer Bits { uint bits[]; };
+layout(set = 0, binding = AFTER_MAPS + 2 + BIAS_REDUCTION, std430) readonly buffer Bits { uint bits[]; };
 float visible(uint k, uint pixel, vec3 position) {
   return float((bits[(k - first) * words + (pixel >> 5)] >> (pixel & 31u)) & 1u);
 }
 #elif VISIBILITY == 2
-layout(set = 0, binding = 7 + BIAS_REDUCTION, std430) readonly buffer Maps { uint maps[]; };
-layout(set = 0, binding = 8 + BIAS_REDUCTION, std430) readonly buffer Frames { vec4 frames[]; };
+layout(set = 0, binding = AFTER_MAPS + 2 + BIAS_REDUCTION, std430) readonly buffer Maps { uint maps[]; };
+layout(set = 0, binding = AFTER_MAPS + 3 + BIAS_REDUCTION, std430) readonly buffer Frames { vec4 frames[]; };
 #include "ism.glsl"
 float visible(uint k, uint pixel, vec3 position) {
   return ism_visible(k, frames[2u * k].xyz, frames[2u * k + 1u].xyz, position);
@@ -42,21 +42,12 @@ float visible(uint k, uint pixel, vec3 position) {
 float visible(uint k, uint pixel, vec3 position) { return 1.0; }
 #endif
 #if BIAS_REDUCTION
-layout(set = 0, binding = 7, scalar) readonly buffer Texels { Vpl texels[]; };
+layout(set = 0, binding = AFTER_MAPS + 2, scalar) readonly buffer Texels { Vpl texels[]; };
 #endif
-
-Light scaled(Light light) {
-#if LIGHT_VPL
-  light.radius *= sqrt(radius2_scale);
-#else
-  light.variance *= radius2_scale;
-#endif
-  return light;
-}
 
 // rgb and a as `Indirect` has them.
 vec4 reflected(Shader shader, uint k, uint pixel) {
-  Light light = scaled(lights[k]);
+  Light light = scaled(lights[k], radius2_scale);
 #if BIAS_REDUCTION
   if (light.power > 0.0 && texels[k].power > 0.0 && is_cancelled(shader, light, alpha))
     return vec4(shade_cancelled(shader, light, texels[k]), 1.0);
@@ -77,7 +68,7 @@ void main() {
   for (uint k = first; k < first + count; ++k) {
     vec4 light = reflected(shader, k, pixel);
     float seen = visible(k, pixel, t.surface.position);
-    sum += vec4(seen * light.rgb, (LIGHT_VPL == 1 ? seen : 1.0) * light.a);
+    sum += vec4(seen * light.rgb, (BIAS_REDUCTION == 1 ? 1.0 : seen) * light.a);
   }
   vec4 before = accumulate != 0u ? indirect[pixel] : vec4(0.0);
   indirect[pixel] = surface ? before + weight * sum : vec4(0.0);

@@ -117,15 +117,15 @@ class ShadeTest : public ::testing::Test {
     defines.insert({{"LIGHT_VPL", std::is_same_v<Light, gpu::Vpl> ? "1" : "0"}, {"VISIBILITY", "0"}});
     const Kernel& kernel = kernels().get(data_root() / "harness" / "frame" / "shade.comp", defines);
     const Buffer light_buffer = upload(lights), out(device(), "out", pixels_.size() * sizeof(glm::vec4));
-    std::vector<Binding> bound(images_.begin(), images_.end());
-    bound.insert(bound.end(), {light_buffer, out});
+    const FieldMaps maps{&images_[0], &images_[1], &images_[2], &images_[3], &images_[4]};
+    Bindings bound = {maps, light_buffer, out};
     Buffer texel_buffer;
-    if (!texels.empty()) bound.push_back(texel_buffer = upload(texels));
+    if (!texels.empty()) bound.add(texel_buffer = upload(texels));
     push.emitter = camera_;
     if (push.count == 0) push.count = static_cast<uint32_t>(lights.size());
     Recorder recorder(device());
     recorder.begin();
-    recorder.pass("shade", [&] {
+    recorder.pass({.step = "shade"}, [&] {
       recorder.dispatch(kernel, bound, push, groups_for(kWidth, 8), groups_for(kHeight, 8));
     });
     recorder.submit_and_wait();

@@ -2,6 +2,7 @@
 // it draws directions by.
 #include <algorithm>
 
+#include "base/test_chi_squared.h"
 #include "frame/shade_fixture.h"
 
 using namespace vsglbench;
@@ -12,12 +13,6 @@ using glm::dvec3;
 constexpr double kPi = 3.14159265358979323846;
 
 double luminance(const dvec3& c) { return glm::dot(c, dvec3(0.2126, 0.7152, 0.0722)); }
-
-// Upper limit of χ² at z standard deviations of a normal (Wilson–Hilferty).
-double chi2_limit(double degrees, double z) {
-  const double a = 2 / (9 * degrees);
-  return degrees * std::pow(1 - a + z * std::sqrt(a), 3);
-}
 
 class VslTest : public ShadeTest {
  protected:
@@ -106,8 +101,8 @@ TEST_F(VslTest, TheEstimateIsTheIntegral) {
     std::printf("%.0f %s: mean z %+.2f standard errors, mean z² %.3f, |z| <= %.2f\n", z.count, name,
                 z.mean_in_errors(), z.square / z.count, z.most);
     EXPECT_LT(std::abs(z.mean_in_errors()), 4) << name;
-    EXPECT_LT(z.square, chi2_limit(z.count, 4)) << name;
-    EXPECT_GT(z.square, chi2_limit(z.count, -4)) << name;
+    EXPECT_LT(z.square, chi_squared_limit(z.count, 4)) << name;
+    EXPECT_GT(z.square, chi_squared_limit(z.count, -4)) << name;
     EXPECT_LT(z.most, 6) << name;
   }
   EXPECT_GT(pairs.count, 150);
@@ -175,7 +170,7 @@ class VslSampling : public VslTest {
     push.count = static_cast<uint32_t>(given.size());
     Recorder recorder(device());
     recorder.begin();
-    recorder.pass("sampling", [&] {
+    recorder.pass({.step = "sampling"}, [&] {
       recorder.dispatch(kernel, {in, out}, push, groups_for(given.size(), 64));
     });
     recorder.submit_and_wait();
@@ -257,7 +252,7 @@ TEST_F(VslSampling, DirectionsHaveTheirDensity) {
       }
     }
     if (rest >= 10) see(rest_hits, rest);
-    EXPECT_LT(chi2, chi2_limit(degrees, 4)) << k << ": " << degrees << " cells, ndf " << push.ndf;
+    EXPECT_LT(chi2, chi_squared_limit(degrees, 4)) << k << ": " << degrees << " cells, ndf " << push.ndf;
   }
   EXPECT_GT(least, 0.5);
 }
@@ -282,7 +277,7 @@ TEST_F(VslSampling, TheConeIsSampledUniformly) {
     }
     double chi2 = 0;
     for (const double n : hits) chi2 += (n - draws / 256) * (n - draws / 256) / (draws / 256);
-    EXPECT_LT(chi2, chi2_limit(255, 4)) << cone;
+    EXPECT_LT(chi2, chi_squared_limit(255, 4)) << cone;
     EXPECT_LE(outside, draws / 1000) << cone;
     EXPECT_EQ(other_density, 0u) << cone;
   }

@@ -47,10 +47,6 @@ const std::vector<ShadingAxis>& shading_axes() {
   return axes;
 }
 
-bool is_shading_key(const std::string& key) {
-  return std::ranges::any_of(shading_axes(), [&](const ShadingAxis& axis) { return axis.key == key; });
-}
-
 std::string chosen(const Shading& shading, const std::string& key) {
   if (const auto it = shading.find(key); it != shading.end()) return it->second;
   return std::ranges::find(shading_axes(), key, &ShadingAxis::key)->choices.front();

@@ -17,8 +17,6 @@ struct ShadingAxis {
 };
 const std::vector<ShadingAxis>& shading_axes();
 
-bool is_shading_key(const std::string& key);
-
 // Choice by key; a key that is absent has its default.
 using Shading = std::map<std::string, std::string>;
 std::string chosen(const Shading& shading, const std::string& key);

@@ -14,11 +14,11 @@ layout(push_constant, scalar) uniform Push {
 };
 #include "ism_surface.glsl"
 
-const uint kDeepest = 14u;          // halvings
-const float kSplatted = 6.0;        // longest edge, squared, of what is splatted, for a piece of 1 sr at 1 m
-const float kLarge = 16.0;          // the same of a triangle to halve and not draw at random
-const uint kMostRounds = 16384u;    // of one invocation; from half of them on nothing is halved
-const float kMostSamples = 3000.0;  // of one cluster's small triangles
+const uint kDeepest = 14u;    // halvings
+const float kSplatted = 6.0;  // longest edge, squared, of what is splatted, for a piece of 1 sr at 1 m
+const float kLarge = 16.0;    // the same of a triangle to halve and not draw at random
+const uint kMostRounds = MOST_ROUNDS;  // of one invocation; from half of them on nothing is halved
+const float kMostSamples = 3000.0;     // of one cluster's small triangles
 
 // Pieces of less solid angle than a texel would leave no more holes: the target is half a texel.
 float piece_solid_angle(vec4 axis, vec3 w) {

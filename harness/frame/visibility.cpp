@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
+#include "gpu/limits.h"
 
 namespace vsglbench {
 
@@ -74,10 +75,10 @@ std::filesystem::path shader(const char* file) { return data_root() / "harness" 
 
 }  // namespace
 
-ImperfectShadowMaps::ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene,
+ImperfectShadowMaps::ImperfectShadowMaps(KernelLibrary& kernels, ShadowMapMemory& memory, const Scene& scene,
                                          Visibility technique, IsmParameters parameters)
     : kernels_(kernels),
-      scratch_(scratch),
+      memory_(memory),
       technique_(technique),
       parameters_(parameters),
       tolerance_(kVisibilityTolerance * scene.diagonal()) {
@@ -95,7 +96,7 @@ size_t ImperfectShadowMaps::level_bytes(uint32_t size, uint32_t count) const {
 }
 
 Buffer& ImperfectShadowMaps::level(uint32_t size, uint32_t count) {
-  return scratch_.get(fmt::format("ism {}", size), level_bytes(size, count));
+  return memory_.levels[size].get(kernels_.device(), fmt::format("ism {}", size), level_bytes(size, count));
 }
 
 size_t ImperfectShadowMaps::memory_bytes(uint32_t count) const {
@@ -105,23 +106,23 @@ size_t ImperfectShadowMaps::memory_bytes(uint32_t count) const {
   return bytes;
 }
 
-std::string ImperfectShadowMaps::pass_name(const char* step) const {
-  return fmt::format("visibility.{}.{}", visibility_name(technique_), step);
+PassId ImperfectShadowMaps::pass(const char* step) const {
+  return {PassStage::visibility, std::nullopt, fmt::format("{}.{}", visibility_name(technique_), step)};
 }
 
 ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const Buffer& lights, LightKind kind,
                                                      uint32_t count, const DeferredTargets& seen,
                                                      bool clears_sigma) {
-  Buffer& frames = scratch_.get("ism frames", count * kFrameBytes);
+  Buffer& frames = memory_.frames.get(kernels_.device(), "ism frames", count * kFrameBytes);
   Buffer& maps = level(parameters_.size, count);
-  const Kernel& make_frames = kernels_.get(
-      shader("ism_frames.comp"),
-      {{"LIGHT_VPL", kind == LightKind::vsgl ? "0" : "1"}, {"LIGHT_CLEARANCE", clears_sigma ? "1" : "0"}});
+  ShaderDefines defines = info_of(kind).record_defines;
+  defines["LIGHT_CLEARANCE"] = clears_sigma ? "1" : "0";
+  const Kernel& make_frames = kernels_.get(shader("ism_frames.comp"), defines);
   const struct {
     uint32_t count;
     float tolerance;
   } push{count, tolerance_};
-  recorder.pass(pass_name("splat"), [&] {
+  recorder.pass(pass("splat"), [&] {
     recorder.fill(maps, 0x7F800000u);
     recorder.dispatch(make_frames, {lights, frames}, push, groups_for(count, 64));
     recorder.barrier();
@@ -144,13 +145,15 @@ void ImperfectShadowMaps::splat(Recorder& recorder, const Buffer& frames, const 
       uint32_t count, map_size, per_map, cluster_count, width, height;
     } push{count, size, points, cluster_count, seen.width, seen.height};
     recorder.dispatch(kernels_.get(shader("aism_splat.comp")),
-                      {positions, triangles, areas, clusters, frames, maps, seen.maps[0]}, push, count);
+                      {positions, triangles, areas, clusters, frames, maps, *seen.field_maps().position},
+                      push, count);
   } else {
     const struct {
       uint32_t count, map_size, cluster_count;
       float piece;
     } push{count, size, cluster_count, 2 * glm::pi<float>() / static_cast<float>(points)};
-    recorder.dispatch(kernels_.get(shader("tism_splat.comp")),
+    recorder.dispatch(kernels_.get(shader("tism_splat.comp"),
+                                   {{"MOST_ROUNDS", fmt::format("{}u", limits::quarter_of_rounds)}}),
                       {positions, triangles, areas, clusters, frames, maps}, push,
                       groups_for(cluster_count, 64), count);
   }
@@ -159,14 +162,14 @@ void ImperfectShadowMaps::splat(Recorder& recorder, const Buffer& frames, const 
 void ImperfectShadowMaps::fill_holes(Recorder& recorder, uint32_t count) {
   const Kernel& pull = kernels_.get(shader("ism_pull.comp"));
   const Kernel& push_kernel = kernels_.get(shader("ism_push.comp"));
-  recorder.pass(pass_name("pull"), [&] {
+  recorder.pass(pass("pull"), [&] {
     for (uint32_t size = parameters_.size / 2; size >= kCoarsest; size /= 2) {
       recorder.dispatch(pull, {level(2 * size, count), level(size, count)}, size, groups_for(size * size, 64),
                         count);
       recorder.barrier();
     }
   });
-  recorder.pass(pass_name("push"), [&] {
+  recorder.pass(pass("push"), [&] {
     for (uint32_t size = 2 * kCoarsest; size <= parameters_.size; size *= 2) {
       recorder.dispatch(push_kernel, {level(size / 2, count), level(size, count)}, size,
                         groups_for(size * size, 64), count);

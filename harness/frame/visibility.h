@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,12 @@ struct IsmParameters {
   uint32_t points = 8192;  // ism, aism: splatted into each map; tism: pieces no smaller than 2π/points sr
 };
 
+// Memory of shadow maps, which techniques and sizes share.
+struct ShadowMapMemory {
+  GrowingBuffer frames;
+  std::map<uint32_t, GrowingBuffer> levels;  // by texels a side
+};
+
 // Imperfect shadow maps of all lights, as passes visibility.TECHNIQUE.{splat,pull,push}. The techniques
 // differ in which points of the scene are splatted into a map:
 //   ism   a random share of points spread over the scene's area (Ritschel et al. 2008 §4)
@@ -56,8 +63,8 @@ struct IsmParameters {
 class ImperfectShadowMaps {
  public:
   // `technique`: one that has shadow maps.
-  ImperfectShadowMaps(KernelLibrary& kernels, ScratchPool& scratch, const Scene& scene, Visibility technique,
-                      IsmParameters parameters);
+  ImperfectShadowMaps(KernelLibrary& kernels, ShadowMapMemory& memory, const Scene& scene,
+                      Visibility technique, IsmParameters parameters);
   struct Maps {
     const Buffer *depth, *frames;
     uint32_t size;
@@ -77,9 +84,9 @@ class ImperfectShadowMaps {
   void fill_holes(Recorder& recorder, uint32_t count);
   size_t level_bytes(uint32_t size, uint32_t count) const;
   Buffer& level(uint32_t size, uint32_t count);
-  std::string pass_name(const char* step) const;
+  PassId pass(const char* step) const;
   KernelLibrary& kernels_;
-  ScratchPool& scratch_;
+  ShadowMapMemory& memory_;
   Visibility technique_;
   IsmParameters parameters_;
   float tolerance_;             // metres

@@ -57,7 +57,7 @@ const glm::vec3 kLight(0.1f, -1, 0.05f), kUp(0, 1, 0);
 // The map of one light on the floor, as shading reads it.
 std::vector<float> depth_map(const Scene& scene, Visibility technique, const IsmParameters& p) {
   KernelLibrary kernels(device());
-  ScratchPool scratch(device());
+  ShadowMapMemory memory;
   SceneGpu geometry(device(), scene);
   const DeferredTargets seen(device(), "seen", 64, 64);
   const View view = camera_view(scene.camera, 64, 64);
@@ -66,10 +66,10 @@ std::vector<float> depth_map(const Scene& scene, Visibility technique, const Ism
   viewer.upload(&emitter, sizeof emitter);
   const gpu::Vpl light{.position = kLight, .normal = kUp, .power = 1, .geometric_normal = kUp};
   lights.upload(&light, sizeof light);
-  ImperfectShadowMaps maps(kernels, scratch, scene, technique, p);
+  ImperfectShadowMaps maps(kernels, memory, scene, technique, p);
   Recorder recorder(device());
   recorder.begin();
-  recorder.pass("gbuffer", [&] { geometry.draw(recorder, view, viewer, seen); });
+  recorder.pass({.step = "gbuffer"}, [&] { geometry.draw(recorder, view, viewer, seen); });
   const auto made = maps.build(recorder, lights, LightKind::vpl, 1, seen);
   recorder.submit_and_wait();
   EXPECT_EQ(made.size, p.size);
@@ -216,13 +216,13 @@ INSTANTIATE_TEST_SUITE_P(Techniques, ShadowMap,
                          [](const auto& test) { return visibility_name(test.param); });
 
 // Every map is counted, with its pyramid, and what the points come from.
-TEST(ShadowMapMemory, IsThatOfTheBuffers) {
+TEST(ShadowMaps, MemoryIsThatOfTheBuffers) {
   KernelLibrary kernels(device());
-  ScratchPool scratch(device());
+  ShadowMapMemory memory;
   const Scene scene = box(true);
   const size_t maps = 100 * 4 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4) + 100 * 32;
-  const ImperfectShadowMaps ism(kernels, scratch, scene, Visibility::ism, {}),
-      tism(kernels, scratch, scene, Visibility::tism, {});
+  const ImperfectShadowMaps ism(kernels, memory, scene, Visibility::ism, {}),
+      tism(kernels, memory, scene, Visibility::tism, {});
   EXPECT_EQ(ism.memory_bytes(100), maps + (1u << 20) * 16);
   EXPECT_GT(tism.memory_bytes(100), maps);
   EXPECT_LT(tism.memory_bytes(100), maps + (1u << 19)) << "14 triangles, halved to 1/1024 of the area";

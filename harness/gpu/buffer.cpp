@@ -105,7 +105,7 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(allocated_, other.allocated_);
 }
 
-void Buffer::upload(const void* data, size_t bytes, size_t offset) {
+void Buffer::upload(const void* data, size_t bytes, size_t offset) const {
   if (offset + bytes > size_) throw std::logic_error("Buffer::upload past the end");
   if (bytes == 0) return;
   if (mapped_) {
@@ -120,7 +120,7 @@ void Buffer::upload(const void* data, size_t bytes, size_t offset) {
   });
 }
 
-void Buffer::fill(uint32_t word, size_t bytes, size_t offset) {
+void Buffer::fill(uint32_t word, size_t bytes, size_t offset) const {
   if (offset + bytes > size_ + guard_) throw std::logic_error("Buffer::fill past the end");
   if (bytes == 0) return;
   device_->run_once(

@@ -15,7 +15,8 @@ namespace vsglbench {
 // What watched memory holds until a kernel writes it: a NaN that no arithmetic makes.
 inline constexpr uint32_t unwritten_word = 0xFFC0DEADu;
 
-// A storage buffer in device memory (also transfer source and target, vertex, index and uniform buffer).
+// A storage buffer in device memory (also transfer source and target, vertex, index and uniform buffer). What
+// it holds belongs to the device: kernels, fill() and upload() change it through a const reference, too.
 class Buffer {
  public:
   Buffer() = default;
@@ -36,13 +37,13 @@ class Buffer {
   explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
 
   // Blocking; `bytes` and `offset` are multiples of 4 and may reach into the guard.
-  void fill(uint32_t word, size_t bytes, size_t offset);
+  void fill(uint32_t word, size_t bytes, size_t offset) const;
   // Blocking copies through a staging buffer (or straight, where the memory is host-visible). A download may
   // reach into the guard.
-  void upload(const void* data, size_t bytes, size_t offset = 0);
+  void upload(const void* data, size_t bytes, size_t offset = 0) const;
   void download(void* data, size_t bytes, size_t offset = 0) const;
   template <class T>
-  void upload(std::span<const T> data) {
+  void upload(std::span<const T> data) const {
     upload(data.data(), data.size_bytes());
   }
   template <class T>

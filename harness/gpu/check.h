@@ -5,7 +5,7 @@
 
 namespace vsglbench {
 
-// VK_SUCCESS returns; anything else throws Error(device).
+// VK_SUCCESS returns; anything else throws Error(device_lost).
 void check_vulkan(VkResult result, const char* call, const char* file, int line);
 
 }  // namespace vsglbench

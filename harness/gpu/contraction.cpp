@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <spirv/unified1/spirv.hpp11>
 #include <string_view>
 
 #include "base/error.h"
@@ -11,11 +12,25 @@ namespace vsglbench {
 namespace {
 
 constexpr size_t kHeaderWords = 5;
-constexpr uint32_t kOpDecorate = 71, kOpMemberDecorate = 72, kNoContraction = 42;
+constexpr auto kNoContraction = static_cast<uint32_t>(spv::Decoration::NoContraction);
 
 // Floating-point arithmetic, whose result is the third word [SPIR-V 3.3.13].
-bool is_arithmetic(uint32_t op) {
-  static constexpr uint32_t ops[] = {127, 129, 131, 133, 136, 140, 141, 142, 143, 144, 145, 146, 147, 148};
+bool is_arithmetic(spv::Op op) {
+  using spv::Op;
+  static constexpr Op ops[] = {Op::OpFNegate,
+                               Op::OpFAdd,
+                               Op::OpFSub,
+                               Op::OpFMul,
+                               Op::OpFDiv,
+                               Op::OpFRem,
+                               Op::OpFMod,
+                               Op::OpVectorTimesScalar,
+                               Op::OpMatrixTimesScalar,
+                               Op::OpVectorTimesMatrix,
+                               Op::OpMatrixTimesVector,
+                               Op::OpMatrixTimesMatrix,
+                               Op::OpOuterProduct,
+                               Op::OpDot};
   return std::ranges::count(ops, op) > 0;
 }
 
@@ -35,12 +50,15 @@ void set_contraction(Contraction contraction, std::vector<uint32_t>* spirv) {
   std::vector<uint32_t> out(spirv->begin(), spirv->begin() + kHeaderWords), decorations;
   size_t annotations = 0;  // where they begin in `out`
   for (size_t i = kHeaderWords; i < spirv->size();) {
-    const uint32_t op = (*spirv)[i] & 0xFFFFu, words = (*spirv)[i] >> 16;
+    const auto op = static_cast<spv::Op>((*spirv)[i] & spv::OpCodeMask);
+    const uint32_t words = (*spirv)[i] >> spv::WordCountShift;
     const auto from = spirv->begin() + static_cast<std::ptrdiff_t>(i);
-    if (annotations == 0 && (op == kOpDecorate || op == kOpMemberDecorate)) annotations = out.size();
+    if (annotations == 0 && (op == spv::Op::OpDecorate || op == spv::Op::OpMemberDecorate))
+      annotations = out.size();
     if (is_arithmetic(op))
-      decorations.insert(decorations.end(), {3u << 16 | kOpDecorate, from[2], kNoContraction});
-    if (op != kOpDecorate || from[2] != kNoContraction) out.insert(out.end(), from, from + words);
+      decorations.insert(decorations.end(), {3u << spv::WordCountShift | uint32_t(spv::Op::OpDecorate),
+                                             from[2], kNoContraction});
+    if (op != spv::Op::OpDecorate || from[2] != kNoContraction) out.insert(out.end(), from, from + words);
     i += words;
   }
   if (contraction == Contraction::never && annotations > 0) {

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include "base/error.h"
@@ -21,11 +20,21 @@ void check_vulkan(VkResult result, const char* call, const char* file, int line)
                        : result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? "out of device memory"
                        : result == VK_ERROR_OUT_OF_HOST_MEMORY   ? "out of host memory"
                                                                  : "failed";
-  throw fail(ErrorKind::device, "Vulkan: {} (code {}) in {} at {}:{}", reason, static_cast<int>(result), call,
-             base ? base + 1 : file, line);
+  throw fail(ErrorKind::device_lost, "Vulkan: {} (code {}) in {} at {}:{}", reason, static_cast<int>(result),
+             call, base ? base + 1 : file, line);
 }
 
 namespace {
+
+// A Vulkan call that fails before there is a device means that none can be opened.
+template <class Action>
+auto opening(const Action& action) {
+  try {
+    return action();
+  } catch (const Error& e) {
+    throw Error(e.kind() == ErrorKind::device_lost ? ErrorKind::device : e.kind(), e.what());
+  }
+}
 
 VkInstance make_instance(bool validation) {
   const VkApplicationInfo app{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
@@ -63,7 +72,7 @@ VkInstance make_instance(bool validation) {
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
-  const VkInstance instance = make_instance(false);
+  const VkInstance instance = opening([] { return make_instance(false); });
   std::vector<DeviceInfo> out;
   for (const VkPhysicalDevice device : physical_devices(instance)) {
     out.push_back(describe_device(device, static_cast<uint32_t>(out.size())));
@@ -73,10 +82,12 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device::Device(const DeviceOptions& options) {
-  create_instance(options.validation);
-  pick(options.select);
-  create_device();
-  LoopCheck::create(*this);
+  opening([&] {
+    create_instance(options.validation);
+    pick(options.select);
+    create_device();
+    LoopCheck::create(*this);
+  });
 }
 
 Device::~Device() {
@@ -121,27 +132,10 @@ VkBool32 Device::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtils
 void Device::pick(const std::string& select) {
   const auto devices = physical_devices(instance_);
   std::vector<DeviceInfo> infos;
-  std::vector<std::string> names;
   for (const VkPhysicalDevice device : devices) {
     infos.push_back(describe_device(device, static_cast<uint32_t>(infos.size())));
-    names.push_back(fmt::format("{}: {}", infos.back().index, infos.back().name));
   }
-  if (infos.empty())
-    throw fail(ErrorKind::device, "no Vulkan device; install a driver (mesa-vulkan-drivers)");
-  const bool by_index = !select.empty() && std::all_of(select.begin(), select.end(), ::isdigit);
-  const DeviceInfo* chosen = nullptr;
-  for (const auto& info : infos) {
-    const bool fits = select.empty() ? info.missing.empty()
-                      : by_index     ? std::to_string(info.index) == select
-                                     : info.name.find(select) != std::string::npos;
-    // Without a wish, a GPU goes before a CPU.
-    if (fits && (!chosen || (select.empty() && chosen->type == "cpu" && info.type != "cpu"))) chosen = &info;
-  }
-  if (!chosen && !select.empty()) {
-    throw fail(ErrorKind::device, "no device '{}'; known, by index and name: {}", select,
-               fmt::join(names, ", "));
-  }
-  if (!chosen) chosen = &infos.front();
+  const DeviceInfo* chosen = &select_device(infos, select);
   if (!chosen->missing.empty()) {
     throw fail(ErrorKind::device, "{} lacks {}", chosen->name, fmt::join(chosen->missing, ", "));
   }

@@ -13,6 +13,7 @@ namespace vsglbench {
 struct DeviceInfo {
   uint32_t index = 0;
   std::string name, type;  // type: cpu, integrated, discrete, virtual, other
+  std::string uuid, pci;   // 32 hex digits; "0000:3b:00.0", empty where the device has no such address
   std::string driver, driver_version, api;
   uint32_t subgroup_size = 0;
   float timestamp_period_ns = 0;
@@ -27,8 +28,12 @@ struct DeviceInfo {
 // itself fails.
 std::vector<DeviceInfo> list_devices();
 
+// Which of `devices` is meant by an index, a UUID, a PCI address, or a part of a name that no other device
+// has; empty: the first usable, GPUs before CPUs. Throws Error(device).
+const DeviceInfo& select_device(const std::vector<DeviceInfo>& devices, const std::string& select);
+
 struct DeviceOptions {
-  std::string select;       // index, or part of a name; empty: the first usable, GPUs before CPUs
+  std::string select;       // as in select_device()
   bool validation = false;  // Khronos validation layer with synchronisation checks
 };
 

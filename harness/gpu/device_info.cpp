@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
+#include "base/error.h"
 #include "gpu/check.h"
 
 namespace vsglbench {
@@ -127,6 +129,60 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
   return missing;
 }
 
+namespace {
+
+// "0000:3b:00.0", as lspci and nvidia-smi write it.
+std::string pci_address(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  const auto is_bus_info = [](const VkExtensionProperties& e) {
+    return std::string_view(e.extensionName) == VK_EXT_PCI_BUS_INFO_EXTENSION_NAME;
+  };
+  if (std::ranges::none_of(extensions, is_bus_info)) return "";
+  VkPhysicalDevicePCIBusInfoPropertiesEXT pci{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PCI_BUS_INFO_PROPERTIES_EXT};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &pci};
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  return fmt::format("{:04x}:{:02x}:{:02x}.{:x}", pci.pciDomain, pci.pciBus, pci.pciDevice, pci.pciFunction);
+}
+
+// The named devices, by index.
+std::string listed(const std::vector<const DeviceInfo*>& devices) {
+  std::string text;
+  for (const DeviceInfo* d : devices) {
+    text += fmt::format("{}{}: {} (UUID {}{}{})", text.empty() ? "" : ", ", d->index, d->name, d->uuid,
+                        d->pci.empty() ? "" : ", PCI ", d->pci);
+  }
+  return text;
+}
+
+}  // namespace
+
+const DeviceInfo& select_device(const std::vector<DeviceInfo>& devices, const std::string& select) {
+  if (devices.empty())
+    throw fail(ErrorKind::device, "no Vulkan device; install a driver (mesa-vulkan-drivers)");
+  std::vector<const DeviceInfo*> all, named;
+  for (const DeviceInfo& d : devices) {
+    all.push_back(&d);
+    if (select == std::to_string(d.index) || select == d.uuid || (!select.empty() && select == d.pci))
+      return d;
+    const bool fits = select.empty() ? d.missing.empty() : d.name.find(select) != std::string::npos;
+    if (fits) named.push_back(&d);
+  }
+  if (select.empty()) {
+    const auto is_gpu = [](const DeviceInfo* d) { return d->type != "cpu"; };
+    const auto gpu = std::ranges::find_if(named, is_gpu);
+    return gpu != named.end() ? **gpu : named.empty() ? devices.front() : *named.front();
+  }
+  if (named.empty()) throw fail(ErrorKind::device, "no device '{}'; known: {}", select, listed(all));
+  if (named.size() > 1) {
+    throw fail(ErrorKind::device, "'{}' is part of {} devices' names; give an index, UUID or PCI address: {}",
+               select, named.size(), listed(named));
+  }
+  return *named.front();
+}
+
 DeviceInfo describe_device(VkPhysicalDevice device, uint32_t index) {
   VkPhysicalDeviceVulkan12Properties vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
   VkPhysicalDeviceVulkan11Properties vulkan11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
@@ -138,6 +194,8 @@ DeviceInfo describe_device(VkPhysicalDevice device, uint32_t index) {
   info.index = index;
   info.name = p.deviceName;
   info.type = type_name(p.deviceType);
+  for (const uint8_t byte : vulkan11.deviceUUID) info.uuid += fmt::format("{:02x}", byte);
+  info.pci = pci_address(device);
   info.driver = vulkan12.driverName;
   info.driver_version = vulkan12.driverInfo;
   info.api = version_text(p.apiVersion);

@@ -1,9 +1,11 @@
 #include "gpu/kernel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
 #include "gpu/check.h"
+#include "gpu/limits.h"
 #include "gpu/loop_check.h"
 
 namespace vsglbench {
@@ -49,15 +51,39 @@ void DescriptorArena::reset() {
   current_ = 0;
 }
 
-BindingLayout::BindingLayout(Device& device, std::vector<VkDescriptorType> types, VkShaderStageFlags stages)
-    : device_(&device), types_(std::move(types)), stages_(stages) {
+namespace {
+
+uint32_t common_push_bytes(const std::string& name,
+                           const std::vector<const std::vector<uint32_t>*>& modules) {
+  uint32_t bytes = 0;
+  for (const auto* module : modules) {
+    const uint32_t own = reflect_push_bytes(*module);
+    if (bytes > 0 && own > 0 && own != bytes)
+      throw fail(ErrorKind::plugin,
+                 "{}: its stages have push-constant blocks of {} and {} bytes; use one block", name, bytes,
+                 own);
+    bytes = std::max(bytes, own);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+BindingLayout::BindingLayout(Device& device, const std::string& name,
+                             const std::vector<const std::vector<uint32_t>*>& modules,
+                             VkShaderStageFlags stages)
+    : device_(&device),
+      name_(name),
+      types_(reflect_bindings(*modules.front(), name)),
+      push_bytes_(common_push_bytes(name, modules)),
+      stages_(stages) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (uint32_t i = 0; i < types_.size(); ++i) bindings.push_back({i, types_[i], 1, stages, nullptr});
   const VkDescriptorSetLayoutCreateInfo set{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                             .bindingCount = static_cast<uint32_t>(bindings.size()),
                                             .pBindings = bindings.data()};
   VK_CHECK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_));
-  const VkPushConstantRange range{stages, 0, 128};
+  const VkPushConstantRange range{stages, 0, limits::push_bytes};
   std::vector<VkDescriptorSetLayout> sets = {set_};
   if (const LoopCheck* check = LoopCheck::of(device); check && stages == VK_SHADER_STAGE_COMPUTE_BIT)
     sets.push_back(check->layout());
@@ -77,16 +103,20 @@ BindingLayout::~BindingLayout() {
 
 void BindingLayout::swap(BindingLayout& other) noexcept {
   std::swap(device_, other.device_);
+  std::swap(name_, other.name_);
   std::swap(types_, other.types_);
+  std::swap(push_bytes_, other.push_bytes_);
   std::swap(stages_, other.stages_);
   std::swap(set_, other.set_);
   std::swap(layout_, other.layout_);
 }
 
 void BindingLayout::bind(VkCommandBuffer commands, DescriptorArena& arena, VkPipelineBindPoint point,
-                         std::span<const Binding> bindings, const std::string& name) const {
+                         const Bindings& given) const {
+  const std::span<const Binding> bindings = given.all();
   if (bindings.size() != types_.size()) {
-    throw std::logic_error(fmt::format("{} has {} bindings, {} given", name, types_.size(), bindings.size()));
+    throw std::logic_error(
+        fmt::format("{} has {} bindings, {} given", name_, types_.size(), bindings.size()));
   }
   const VkDescriptorSet set = arena.allocate(set_);
   std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
@@ -96,7 +126,7 @@ void BindingLayout::bind(VkCommandBuffer commands, DescriptorArena& arena, VkPip
     const bool is_image = types_[i] == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     if (is_image != (bindings[i].image != nullptr)) {
       throw std::logic_error(
-          fmt::format("{}: binding {} takes {}", name, i, is_image ? "an image" : "a buffer"));
+          fmt::format("{}: binding {} takes {}", name_, i, is_image ? "an image" : "a buffer"));
     }
     if (is_image) {
       images[i] = {device_->sampler(), bindings[i].image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
@@ -115,7 +145,16 @@ void BindingLayout::bind(VkCommandBuffer commands, DescriptorArena& arena, VkPip
   vkCmdBindDescriptorSets(commands, point, layout_, 0, 1, &set, 0, nullptr);
 }
 
+void BindingLayout::check_push(size_t bytes) const {
+  if (bytes == push_bytes_) return;
+  throw fail(
+      ErrorKind::plugin,
+      "{}: its push-constant block has {} bytes, and the host pushes {}; make both the same (scalar layout)",
+      name_, push_bytes_, bytes);
+}
+
 void BindingLayout::push_constants(VkCommandBuffer commands, const void* data, size_t bytes) const {
+  check_push(bytes);
   if (bytes > 0) vkCmdPushConstants(commands, layout_, stages_, 0, static_cast<uint32_t>(bytes), data);
 }
 
@@ -135,9 +174,8 @@ Kernel::Kernel(Device& device, const std::filesystem::path& path, const ShaderDe
   ShaderDefines all = defines;
   if (check) all.emplace(loop_check_define, "1");
   const auto spirv = compile_shader(path, all, include_dirs);
-  layout_ = BindingLayout(device, reflect_bindings(spirv, name_), VK_SHADER_STAGE_COMPUTE_BIT);
+  layout_ = BindingLayout(device, name_, {&spirv}, VK_SHADER_STAGE_COMPUTE_BIT);
   float_outputs_ = reflect_float_outputs(spirv);
-  push_bytes_ = reflect_push_bytes(spirv);
   const VkShaderModule module = make_shader_module(device, spirv);
   const uint32_t number = check ? check->number_of(name_) : 0;
   const VkSpecializationMapEntry entry{LoopCheck::kConstant, 0, sizeof number};
@@ -165,21 +203,15 @@ void Kernel::swap(Kernel& other) noexcept {
   std::swap(layout_, other.layout_);
   std::swap(pipeline_, other.pipeline_);
   std::swap(float_outputs_, other.float_outputs_);
-  std::swap(push_bytes_, other.push_bytes_);
 }
 
-void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
+void Kernel::dispatch(VkCommandBuffer commands, DescriptorArena& arena, const Bindings& bindings,
                       const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y,
                       uint32_t groups_z) const {
-  if (push_bytes != push_bytes_) {
-    throw fail(ErrorKind::plugin,
-               "{}: its push-constant block has {} bytes, and the host pushes {}; make both the same (scalar "
-               "layout)",
-               name_, push_bytes_, push_bytes);
-  }
+  layout_.check_push(push_bytes);  // of a dispatch without groups, too
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
-  layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, name_);
+  layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_COMPUTE, bindings);
   if (const LoopCheck* check = LoopCheck::of(*device_)) {
     const VkDescriptorSet set = check->set();
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipeline_layout(),

@@ -3,6 +3,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <concepts>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -22,6 +23,37 @@ struct Binding {
   const DeviceImage* image = nullptr;
 };
 
+// Several bindings in the order of their numbers, which stand together in one GLSL header: FieldMaps
+// (shaders/field_maps.glsl), MomentBuffers (shaders/moments_buffers.glsl).
+template <class T>
+concept BindingGroup = requires(const T& group) {
+  { group.bindings() } -> std::convertible_to<std::span<const Binding>>;
+};
+
+// All that a dispatch binds: {field.maps, pdf, lights}. Numbers follow from the order.
+class Bindings {
+ public:
+  struct Part {
+    Part(const Binding& one) : bindings{one} {}
+    Part(const Buffer& b) : Part(Binding(b)) {}
+    Part(const DeviceImage& i) : Part(Binding(i)) {}
+    template <BindingGroup T>
+    Part(const T& group) {
+      const auto all = group.bindings();
+      bindings.assign(all.begin(), all.end());
+    }
+    std::vector<Binding> bindings;
+  };
+  Bindings(std::initializer_list<Part> parts) {
+    for (const Part& part : parts) add(part);
+  }
+  void add(const Part& part) { all_.insert(all_.end(), part.bindings.begin(), part.bindings.end()); }
+  std::span<const Binding> all() const { return all_; }
+
+ private:
+  std::vector<Binding> all_;
+};
+
 // Descriptor sets that live until reset().
 class DescriptorArena {
  public:
@@ -39,11 +71,14 @@ class DescriptorArena {
   size_t current_ = 0;
 };
 
-// Descriptor-set and pipeline layout for set 0 and 128 bytes of push constants.
+// Descriptor-set and pipeline layout for set 0 and the push constants, as SPIR-V modules declare them.
+// `name`: of the shader, for errors.
 class BindingLayout {
  public:
   BindingLayout() = default;
-  BindingLayout(Device& device, std::vector<VkDescriptorType> types, VkShaderStageFlags stages);
+  // The first module's bindings count; push-constant blocks must be of one size in all that have one.
+  BindingLayout(Device& device, const std::string& name,
+                const std::vector<const std::vector<uint32_t>*>& modules, VkShaderStageFlags stages);
   ~BindingLayout();
   BindingLayout(BindingLayout&& other) noexcept { swap(other); }
   BindingLayout& operator=(BindingLayout&& other) noexcept {
@@ -53,13 +88,19 @@ class BindingLayout {
   VkPipelineLayout pipeline_layout() const { return layout_; }
   // Throws std::logic_error when count or kind of `bindings` don't fit.
   void bind(VkCommandBuffer commands, DescriptorArena& arena, VkPipelineBindPoint point,
-            std::span<const Binding> bindings, const std::string& name) const;
-  void push_constants(VkCommandBuffer commands, const void* data, size_t bytes) const;
+            const Bindings& bindings) const;
+  // Throws Error(plugin) where `bytes` is not the size of the shader's block: what is missing would be read
+  // as garbage, and what is over, left out.
+  void check_push(size_t bytes) const;
+  void push_constants(VkCommandBuffer commands, const void* data, size_t bytes) const;  // checked
+  uint32_t push_bytes() const { return push_bytes_; }  // of the push-constant block; 0: none
 
  private:
   void swap(BindingLayout& other) noexcept;
   Device* device_ = nullptr;
+  std::string name_;
   std::vector<VkDescriptorType> types_;
+  uint32_t push_bytes_ = 0;
   VkShaderStageFlags stages_ = 0;
   VkDescriptorSetLayout set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
@@ -81,13 +122,9 @@ class Kernel {
 
   const std::string& name() const { return name_; }
   const FloatOutputs& float_outputs() const { return float_outputs_; }
-  uint32_t push_bytes() const { return push_bytes_; }  // of its push-constant block
-  // Binds and dispatches groups; a group count of zero records nothing. Throws Error(plugin) where
-  // `push_bytes` is not the size of the kernel's block: what is missing would be read as garbage, and what is
-  // over, left out.
-  void dispatch(VkCommandBuffer commands, DescriptorArena& arena, std::span<const Binding> bindings,
-                const void* push, size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1,
-                uint32_t groups_z = 1) const;
+  // Binds and dispatches groups; a group count of zero records nothing. Throws as BindingLayout does.
+  void dispatch(VkCommandBuffer commands, DescriptorArena& arena, const Bindings& bindings, const void* push,
+                size_t push_bytes, uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1) const;
 
  private:
   void swap(Kernel& other) noexcept;
@@ -96,7 +133,6 @@ class Kernel {
   BindingLayout layout_;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
   FloatOutputs float_outputs_;
-  uint32_t push_bytes_ = 0;
 };
 
 }  // namespace vsglbench

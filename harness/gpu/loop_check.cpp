@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "gpu/check.h"
+#include "gpu/limits.h"
 
 namespace vsglbench {
 namespace {
@@ -70,10 +71,9 @@ void LoopCheck::report() {
   const uint32_t none = 0;
   ended_.upload(&none, sizeof none);
   throw fail(ErrorKind::plugin,
-             "{}: a loop does not end: lavapipe ends the loops of an invocation after 65535 rounds, and what "
-             "it wrote is "
-             "cut short; end it, or share its rounds among dispatches",
-             kernels_.at(ended - 1));
+             "{}: a loop does not end: lavapipe ends the loops of an invocation after {} rounds, and what it "
+             "wrote is cut short; end it, or share its rounds among dispatches",
+             kernels_.at(ended - 1), limits::loop_rounds);
 }
 
 }  // namespace vsglbench

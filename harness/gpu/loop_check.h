@@ -1,5 +1,5 @@
-// On lavapipe, which ends all loops of an invocation after 65535 rounds without a word: which kernel it did
-// that to.
+// On lavapipe, which ends all loops of an invocation after limits::loop_rounds without a word: which kernel
+// it did that to.
 //
 // Once the rounds are used up every later loop of the invocation is left after its first. So each kernel
 // compiled for a CPU device ends with a loop of two rounds, and writes its number where it got only one. On a

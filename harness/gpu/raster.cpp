@@ -34,7 +34,7 @@ RasterPipeline::RasterPipeline(Device& device, const std::filesystem::path& vert
     : device_(&device) {
   const auto vertex_code = compile_shader(vertex, defines, include_dirs);
   const auto fragment_code = compile_shader(fragment, defines, include_dirs);
-  layout_ = BindingLayout(device, reflect_bindings(fragment_code, fragment.filename().string()),
+  layout_ = BindingLayout(device, fragment.filename().string(), {&fragment_code, &vertex_code},
                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT);
   const VkShaderModule modules[] = {make_shader_module(device, vertex_code),
                                     make_shader_module(device, fragment_code)};

@@ -36,7 +36,14 @@ class RasterPipeline {
   // targets in SHADER_READ_ONLY_OPTIMAL.
   void render(VkCommandBuffer commands, const std::vector<const DeviceImage*>& targets,
               const DeviceImage& depth, const std::function<void()>& draw) const;
-  const BindingLayout& layout() const { return layout_; }
+  // Within `draw`: binds, and pushes to both stages; throws as BindingLayout does.
+  template <class Push>
+  void bind(VkCommandBuffer commands, DescriptorArena& arena, const Bindings& bindings,
+            const Push& push) const {
+    static_assert(std::is_trivially_copyable_v<Push>);
+    layout_.bind(commands, arena, VK_PIPELINE_BIND_POINT_GRAPHICS, bindings);
+    layout_.push_constants(commands, &push, sizeof push);
+  }
 
  private:
   void swap(RasterPipeline& other) noexcept;

@@ -47,7 +47,7 @@ void Recorder::begin() {
 }
 
 void Recorder::open() {
-  names_.clear();
+  passes_.clear();
   descriptors_.reset();
   vkResetQueryPool(device_.handle(), queries_, 0, 2 * kMaxPasses);
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -56,12 +56,12 @@ void Recorder::open() {
   barrier();
 }
 
-void Recorder::pass(const std::string& name, const std::function<void()>& record) {
+void Recorder::pass(const PassId& pass, const std::function<void()>& record) {
   State& s = *state_;
-  if (!s.observer || s.in_pass) return record_pass(name, record);
+  if (!s.observer || s.in_pass) return record_pass(pass, record);
   s.in_pass = true;
-  s.pass = {name, {}};
-  record_pass(name, record);
+  s.pass = {pass, {}};
+  record_pass(pass, record);
   s.in_pass = false;
   s.observer->before(s.pass);
   submit();
@@ -69,11 +69,12 @@ void Recorder::pass(const std::string& name, const std::function<void()>& record
   open();
 }
 
-void Recorder::record_pass(const std::string& name, const std::function<void()>& record) {
-  if (names_.size() == kMaxPasses) throw std::logic_error("too many passes in one submission");
-  const auto index = static_cast<uint32_t>(names_.size());
-  names_.push_back(name);
+void Recorder::record_pass(const PassId& pass, const std::function<void()>& record) {
+  if (passes_.size() == kMaxPasses) throw std::logic_error("too many passes in one submission");
+  const auto index = static_cast<uint32_t>(passes_.size());
+  passes_.push_back(pass);
   if (device_.begin_label) {
+    const std::string name = pass.name();
     const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
                                      .pLabelName = name.c_str()};
     device_.begin_label(commands_, &label);
@@ -89,14 +90,14 @@ void Recorder::record_pass(const std::string& name, const std::function<void()>&
   if (device_.end_label) device_.end_label(commands_);
 }
 
-void Recorder::dispatch(const Kernel& kernel, std::span<const Binding> bindings, const void* push,
-                        size_t push_bytes, uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
+void Recorder::dispatch(const Kernel& kernel, const Bindings& bindings, const void* push, size_t push_bytes,
+                        uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
   kernel.dispatch(commands_, descriptors_, bindings, push, push_bytes, groups_x, groups_y, groups_z);
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
   ++dispatches_;
   if (!state_->in_pass) return;
-  for (uint32_t i = 0; i < bindings.size(); ++i) {
-    if (bindings[i].buffer) state_->pass.uses.push_back({bindings[i].buffer, &kernel, i});
+  for (uint32_t i = 0; i < bindings.all().size(); ++i) {
+    if (const Buffer* buffer = bindings.all()[i].buffer) state_->pass.uses.push_back({buffer, &kernel, i});
   }
 }
 
@@ -132,8 +133,8 @@ void Recorder::submit() {
   VK_CHECK(vkResetFences(device_.handle(), 1, &state_->fence));
   if (LoopCheck* check = LoopCheck::of(device_)) check->report();
 
-  if (names_.empty()) return;
-  std::vector<uint64_t> stamps(2 * names_.size());
+  if (passes_.empty()) return;
+  std::vector<uint64_t> stamps(2 * passes_.size());
   VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(stamps.size()),
                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
@@ -143,8 +144,8 @@ void Recorder::submit() {
   const auto milliseconds = [&](uint64_t from, uint64_t to) {
     return static_cast<double>((to - from) & mask) * ms_per_tick;
   };
-  for (size_t i = 0; i < names_.size(); ++i) {
-    state_->times.passes.push_back({names_[i], milliseconds(stamps[2 * i], stamps[2 * i + 1])});
+  for (size_t i = 0; i < passes_.size(); ++i) {
+    state_->times.passes.push_back({passes_[i], milliseconds(stamps[2 * i], stamps[2 * i + 1])});
   }
   state_->times.span_ms += milliseconds(stamps.front(), stamps.back());
 }

@@ -10,16 +10,18 @@
 #include <vector>
 
 #include "gpu/kernel.h"
+#include "gpu/limits.h"
+#include "gpu/pass_id.h"
 
 namespace vsglbench {
 
 struct PassTime {
-  std::string name;  // dotted, <stage>.<half>.<step>
+  PassId pass;
   double ms = 0;
 };
 
 struct SubmissionTimes {
-  std::vector<PassTime> passes;  // in order; a name may come more than once
+  std::vector<PassTime> passes;  // in order; one may come more than once
   double span_ms = 0;            // from the first timestamp to the last
   unsigned dispatches = 0;
 };
@@ -31,7 +33,7 @@ struct PassRecord {
     const Kernel* kernel;  // null: filled
     uint32_t binding;
   };
-  std::string name;
+  PassId pass;
   std::vector<Use> uses;
 };
 
@@ -56,21 +58,16 @@ class Recorder {
   DescriptorArena& descriptors() { return descriptors_; }
 
   void begin();
-  // Everything `record` records belongs to pass `name`. Passes don't nest.
-  void pass(const std::string& name, const std::function<void()>& record);
+  // Everything `record` records belongs to `pass`. Passes don't nest.
+  void pass(const PassId& pass, const std::function<void()>& record);
   // Inside a pass. Later dispatches see what earlier ones wrote only after barrier().
-  void dispatch(const Kernel& kernel, std::span<const Binding> bindings, const void* push, size_t push_bytes,
+  void dispatch(const Kernel& kernel, const Bindings& bindings, const void* push, size_t push_bytes,
                 uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
   template <class Push>
-  void dispatch(const Kernel& kernel, std::span<const Binding> bindings, const Push& push, uint32_t groups_x,
+  void dispatch(const Kernel& kernel, const Bindings& bindings, const Push& push, uint32_t groups_x,
                 uint32_t groups_y = 1, uint32_t groups_z = 1) {
-    static_assert(sizeof(Push) <= 128 && std::is_trivially_copyable_v<Push>);
+    static_assert(sizeof(Push) <= limits::push_bytes && std::is_trivially_copyable_v<Push>);
     dispatch(kernel, bindings, &push, sizeof push, groups_x, groups_y, groups_z);
-  }
-  template <class Push>
-  void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings, const Push& push,
-                uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1) {
-    dispatch(kernel, std::span(bindings.begin(), bindings.size()), push, groups_x, groups_y, groups_z);
   }
   void barrier();
   void fill(const Buffer& buffer, uint32_t word);  // every 32-bit word but the guard's
@@ -85,14 +82,14 @@ class Recorder {
   struct State;
   void open();
   void submit();
-  void record_pass(const std::string& name, const std::function<void()>& record);
+  void record_pass(const PassId& pass, const std::function<void()>& record);
   static constexpr uint32_t kMaxPasses = 512;
   Device& device_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkQueryPool queries_ = VK_NULL_HANDLE;
   std::unique_ptr<State> state_;  // the rest; apart, so that plugins need not know its size
   DescriptorArena descriptors_;
-  std::vector<std::string> names_;
+  std::vector<PassId> passes_;  // of the open submission
   unsigned dispatches_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <spirv/unified1/spirv.hpp11>
 #include <utility>
 
 #include "base/error.h"
@@ -15,41 +16,18 @@
 namespace vsglbench {
 namespace {
 
-// The few SPIR-V opcodes and enumerants that reflection needs (SPIR-V specification 1.6, section 3).
-enum Op : uint32_t {
-  kMemberName = 6,
-  kTypeInt = 21,
-  kTypeFloat = 22,
-  kTypeVector = 23,
-  kTypeMatrix = 24,
-  kTypeImage = 25,
-  kTypeSampledImage = 27,
-  kTypeArray = 28,
-  kTypeRuntimeArray = 29,
-  kTypeStruct = 30,
-  kTypePointer = 32,
-  kConstant = 43,
-  kVariable = 59,
-  kDecorate = 71,
-  kMemberDecorate = 72,
-  kBitcast = 124
-};
-enum Decoration : uint32_t {
-  kRowMajor = 4,
-  kArrayStride = 6,
-  kMatrixStride = 7,
-  kNonWritable = 24,
-  kBinding = 33,
-  kDescriptorSet = 34,
-  kOffset = 35
-};
-enum StorageClass : uint32_t { kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12 };
-
+using spv::Decoration;
+using spv::Op;
+using spv::StorageClass;
 using Words = std::span<const uint32_t>;       // of one instruction, its opcode first
 using Member = std::pair<uint32_t, uint32_t>;  // struct type, index
 
+Op opcode_of(Words instruction) { return static_cast<Op>(instruction[0] & spv::OpCodeMask); }
+Decoration decoration_of(uint32_t word) { return static_cast<Decoration>(word); }
+
 struct Variable {
-  uint32_t pointer_type, storage;
+  uint32_t pointer_type;
+  StorageClass storage;
 };
 
 struct Reflected {
@@ -69,51 +47,53 @@ struct Reflected {
     const auto known = constants.find(types.at(array)[3]);
     return known == constants.end() ? 0 : known->second;
   }
-  uint32_t opcode(uint32_t type) const { return types.count(type) ? types.at(type)[0] & 0xffff : 0; }
+  Op opcode(uint32_t type) const { return types.count(type) ? opcode_of(types.at(type)) : Op::OpNop; }
 };
 
 bool is_infinite(uint32_t bits) { return (bits & 0x7fffffffu) == 0x7f800000u; }
 
 void take_decoration(Words w, Reflected& r) {
-  if (w[2] == kNonWritable) r.read_only.insert(w[1]);
+  const Decoration decoration = decoration_of(w[2]);
+  if (decoration == Decoration::NonWritable) r.read_only.insert(w[1]);
   if (w.size() < 4) return;
-  if (w[2] == kBinding) r.binding[w[1]] = w[3];
-  if (w[2] == kDescriptorSet) r.set[w[1]] = w[3];
-  if (w[2] == kArrayStride) r.array_stride[w[1]] = w[3];
+  if (decoration == Decoration::Binding) r.binding[w[1]] = w[3];
+  if (decoration == Decoration::DescriptorSet) r.set[w[1]] = w[3];
+  if (decoration == Decoration::ArrayStride) r.array_stride[w[1]] = w[3];
 }
 
 void take_member_decoration(Words w, Reflected& r) {
   const Member member{w[1], w[2]};
-  if (w[3] == kNonWritable) r.read_only_member.insert(member);
-  if (w[3] == kRowMajor) r.row_major.insert(member);
+  const Decoration decoration = decoration_of(w[3]);
+  if (decoration == Decoration::NonWritable) r.read_only_member.insert(member);
+  if (decoration == Decoration::RowMajor) r.row_major.insert(member);
   if (w.size() < 5) return;
-  if (w[3] == kOffset) r.offset[member] = w[4];
-  if (w[3] == kMatrixStride) r.matrix_stride[member] = w[4];
+  if (decoration == Decoration::Offset) r.offset[member] = w[4];
+  if (decoration == Decoration::MatrixStride) r.matrix_stride[member] = w[4];
 }
 
 void take(Words w, Reflected& r) {
-  const uint32_t opcode = w[0] & 0xffff;
-  if (opcode >= kTypeInt && opcode <= kTypePointer && w.size() >= 2) r.types[w[1]] = w;
-  if (opcode == kDecorate && w.size() >= 3) take_decoration(w, r);
-  if (opcode == kMemberDecorate && w.size() >= 4) take_member_decoration(w, r);
-  if (opcode == kMemberName && w.size() >= 4) {
+  const Op opcode = opcode_of(w);
+  if (opcode >= Op::OpTypeInt && opcode <= Op::OpTypePointer && w.size() >= 2) r.types[w[1]] = w;
+  if (opcode == Op::OpDecorate && w.size() >= 3) take_decoration(w, r);
+  if (opcode == Op::OpMemberDecorate && w.size() >= 4) take_member_decoration(w, r);
+  if (opcode == Op::OpMemberName && w.size() >= 4) {
     const auto* text = reinterpret_cast<const char*>(&w[3]);
     r.member_name[{w[1], w[2]}] = std::string(text, strnlen(text, 4 * (w.size() - 3)));
   }
-  if (opcode == kConstant && w.size() == 4) {
+  if (opcode == Op::OpConstant && w.size() == 4) {
     r.constants[w[2]] = w[3];
-    r.infinite_constant |= r.opcode(w[1]) == kTypeFloat && is_infinite(w[3]);
+    r.infinite_constant |= r.opcode(w[1]) == Op::OpTypeFloat && is_infinite(w[3]);
   }
-  if (opcode == kBitcast && w.size() == 4 && r.constants.count(w[3])) {
-    r.infinite_constant |= r.opcode(w[1]) == kTypeFloat && is_infinite(r.constants.at(w[3]));
+  if (opcode == Op::OpBitcast && w.size() == 4 && r.constants.count(w[3])) {
+    r.infinite_constant |= r.opcode(w[1]) == Op::OpTypeFloat && is_infinite(r.constants.at(w[3]));
   }
-  if (opcode == kVariable && w.size() >= 4) r.variables[w[2]] = {w[1], w[3]};
+  if (opcode == Op::OpVariable && w.size() >= 4) r.variables[w[2]] = {w[1], static_cast<StorageClass>(w[3])};
 }
 
 Reflected scan(const std::vector<uint32_t>& spirv) {
   Reflected r;
   for (size_t i = 5; i < spirv.size();) {
-    const uint32_t words = spirv[i] >> 16;
+    const uint32_t words = spirv[i] >> spv::WordCountShift;
     if (words == 0 || i + words > spirv.size()) break;
     take(Words(&spirv[i], words), r);
     i += words;
@@ -130,21 +110,21 @@ class FloatFinder {
   void find(uint32_t type, Member owner, const std::string& name, uint32_t offset) {
     const Words w = r_.types.count(type) ? r_.types.at(type) : Words();
     switch (r_.opcode(type)) {
-      case kTypeFloat:
+      case Op::OpTypeFloat:
         if (w[2] == 32) fields.push_back({name, offset});
         break;
-      case kTypeVector:
+      case Op::OpTypeVector:
         for (uint32_t i = 0; i < w[3]; ++i)
           find(w[2], owner, within(name, std::string(1, "xyzw"[i % 4])), offset + 4 * i);
         break;
-      case kTypeMatrix:
+      case Op::OpTypeMatrix:
         find_matrix(w, owner, name, offset);
         break;
-      case kTypeArray:
+      case Op::OpTypeArray:
         for (uint32_t i = 0; i < r_.length(type); ++i)
           find(w[2], owner, fmt::format("{}[{}]", name, i), offset + i * r_.array_stride.at(type));
         break;
-      case kTypeStruct:
+      case Op::OpTypeStruct:
         for (uint32_t i = 0; i + 2 < w.size(); ++i) {
           const Member member{type, i};
           find(w[i + 2], member, within(name, name_of(member)), offset + r_.offset.at(member));
@@ -181,22 +161,22 @@ class FloatFinder {
 uint32_t bytes_of(const Reflected& r, uint32_t type, Member owner) {
   const Words w = r.types.at(type);
   switch (r.opcode(type)) {
-    case kTypeInt:
-    case kTypeFloat:
+    case Op::OpTypeInt:
+    case Op::OpTypeFloat:
       return w[2] / 8;
-    case kTypeVector:
+    case Op::OpTypeVector:
       return w[3] * bytes_of(r, w[2], owner);
-    case kTypeMatrix: {
+    case Op::OpTypeMatrix: {
       const uint32_t columns = w[3], rows = r.types.at(w[2])[3],
                      scalar = bytes_of(r, r.types.at(w[2])[2], owner);
       const bool row_major = r.row_major.count(owner) > 0;
       return ((row_major ? rows : columns) - 1) * r.matrix_stride.at(owner) +
              (row_major ? columns : rows) * scalar;
     }
-    case kTypeArray:
+    case Op::OpTypeArray:
       return r.length(type) == 0 ? 0
                                  : (r.length(type) - 1) * r.array_stride.at(type) + bytes_of(r, w[2], owner);
-    case kTypeStruct: {
+    case Op::OpTypeStruct: {
       uint32_t end = 0;
       for (uint32_t i = 0; i + 2 < w.size(); ++i)
         end = std::max(end, r.offset.at({type, i}) + bytes_of(r, w[i + 2], {type, i}));
@@ -215,11 +195,11 @@ FloatArray float_array(const Reflected& r, Member member, uint32_t type) {
   array.offset = r.offset.at(member);
   array.count = 1;
   uint32_t element = type;
-  const uint32_t opcode = r.opcode(type);
-  if (opcode == kTypeArray || opcode == kTypeRuntimeArray) {
+  const Op opcode = r.opcode(type);
+  if (opcode == Op::OpTypeArray || opcode == Op::OpTypeRuntimeArray) {
     element = r.types.at(type)[2];
     array.stride = r.array_stride.at(type);
-    array.count = opcode == kTypeArray ? r.length(type) : 0;
+    array.count = opcode == Op::OpTypeArray ? r.length(type) : 0;
   }
   finder.find(element, member, "", 0);
   array.fields = std::move(finder.fields);
@@ -237,12 +217,12 @@ std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spir
       throw fail(ErrorKind::plugin, "{}: binding {} is in set {}; use set 0", name, binding, r.set.at(id));
     }
     const auto [pointer, storage] = r.variables.at(id);
-    const bool sampled = r.opcode(r.types.at(pointer)[3]) == kTypeSampledImage;
-    if (storage == kStorageBuffer) {
+    const bool sampled = r.opcode(r.types.at(pointer)[3]) == Op::OpTypeSampledImage;
+    if (storage == StorageClass::StorageBuffer) {
       found[binding] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    } else if (storage == kUniform) {
+    } else if (storage == StorageClass::Uniform) {
       found[binding] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    } else if (storage == kUniformConstant && sampled) {
+    } else if (storage == StorageClass::UniformConstant && sampled) {
       found[binding] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     } else {
       throw fail(ErrorKind::plugin, "{}: binding {} is neither a buffer nor a sampler", name, binding);
@@ -260,7 +240,8 @@ std::vector<VkDescriptorType> reflect_bindings(const std::vector<uint32_t>& spir
 uint32_t reflect_push_bytes(const std::vector<uint32_t>& spirv) {
   const Reflected r = scan(spirv);
   for (const auto& [id, variable] : r.variables) {
-    if (variable.storage == kPushConstant) return bytes_of(r, r.types.at(variable.pointer_type)[3], {});
+    if (variable.storage == StorageClass::PushConstant)
+      return bytes_of(r, r.types.at(variable.pointer_type)[3], {});
   }
   return 0;
 }
@@ -271,7 +252,9 @@ FloatOutputs reflect_float_outputs(const std::vector<uint32_t>& spirv) {
   for (const auto& [id, binding] : r.binding) {
     const auto [pointer, storage] = r.variables.at(id);
     const uint32_t block = r.types.at(pointer)[3];
-    if (storage != kStorageBuffer || r.read_only.count(id) || r.opcode(block) != kTypeStruct) continue;
+    if (storage != StorageClass::StorageBuffer || r.read_only.count(id) ||
+        r.opcode(block) != Op::OpTypeStruct)
+      continue;
     const Words members = r.types.at(block).subspan(2);
     for (uint32_t i = 0; i < members.size(); ++i) {
       if (r.read_only_member.count({block, i})) continue;

@@ -5,16 +5,14 @@
 #include <glslang/build_info.h>
 
 #include <chrono>
-#include <cstring>
-#include <fstream>
-#include <regex>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
-#include "base/log.h"
 #include "gpu/contraction.h"
 #include "gpu/loop_check.h"
+#include "gpu/spirv_cache.h"
 
 namespace fs = std::filesystem;
 
@@ -82,9 +80,9 @@ EShLanguage stage_of(const fs::path& path) {
 
 // glslang's log starts "ERROR: FILE:LINE: what"; only the first error is news.
 [[noreturn]] void report(const fs::path& path, const std::string& log) {
-  std::smatch match;
-  static const std::regex error("ERROR: ([^\n]*)");
-  std::string what = std::regex_search(log, match, error) ? match[1].str() : log.substr(0, log.find('\n'));
+  constexpr std::string_view kError = "ERROR: ";
+  const size_t error = log.find(kError), first = error == std::string::npos ? 0 : error + kError.size();
+  std::string what = log.substr(first, log.find('\n', first) - first);
   what.resize(what.find_last_not_of(' ') + 1);
   // An error in an include names that file; the kernel it belongs to goes first.
   if (what.starts_with(path.string())) throw Error(ErrorKind::plugin, what);
@@ -152,28 +150,6 @@ std::vector<uint32_t> compile(const Source& source, const TBuiltInResource& limi
   return spirv;
 }
 
-// A cached file is the hash of the words, in hex, and then the words: damage shows, and is compiled anew.
-constexpr size_t kHashDigits = 32;
-
-bool read_cached(const fs::path& path, std::vector<uint32_t>* spirv) {
-  std::error_code ec;
-  if (!fs::is_regular_file(path, ec)) return false;
-  const std::string text = read_text(path);
-  if (text.size() <= kHashDigits || (text.size() - kHashDigits) % 4 != 0) return false;
-  spirv->resize((text.size() - kHashDigits) / 4);
-  std::memcpy(spirv->data(), text.data() + kHashDigits, text.size() - kHashDigits);
-  return Hasher().array(*spirv).hex() == text.substr(0, kHashDigits);
-}
-
-void write_cached(const fs::path& path, const std::vector<uint32_t>& spirv) {
-  try {
-    const std::string words(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
-    write_text(path, Hasher().array(spirv).hex() + words);
-  } catch (const Error& e) {
-    log_warning("shader cache: {}", e.what());  // a cache that can't be written costs time, not the run
-  }
-}
-
 }  // namespace
 
 std::vector<uint32_t> compile_shader(const fs::path& path, const ShaderDefines& defines,
@@ -191,11 +167,11 @@ std::vector<uint32_t> compile_shader(const fs::path& path, const ShaderDefines& 
   const fs::path cached = cache_directory() / "spirv" / (hasher.hex() + ".spv");
 
   std::vector<uint32_t> spirv;
-  if (read_cached(cached, &spirv)) {
+  if (read_cached_spirv(cached, &spirv)) {
     ++statistics.from_cache;
   } else {
     spirv = compile(source, limits, includer);
-    write_cached(cached, spirv);
+    write_cached_spirv(cached, spirv);
     ++statistics.compiled;
   }
   statistics.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -19,13 +19,16 @@ double TimestampClock::milliseconds(uint64_t from, uint64_t to) const {
 std::string timestamp_fault(std::span<const uint64_t> stamps, const TimestampClock& clock, double wall_ms) {
   const double most = wall_ms * (1 + kClockSlack) + kSlackMs;
   for (size_t i = 0; i < stamps.size(); ++i) {
-    if (stamps[i] == 0) return fmt::format("timestamp {} of {} is 0: it was never written", i + 1, stamps.size());
+    if (stamps[i] == 0)
+      return fmt::format("timestamp {} of {} is 0: it was never written", i + 1, stamps.size());
     if (i == 0) continue;
     // A step back looks like nearly the whole range of the clock, which no frame lasts.
     const double ms = clock.milliseconds(stamps[i - 1], stamps[i]);
     if (ms > most) {
-      return fmt::format("timestamp {} of {} lies {:.4g} ms after the one before it, or before it; the host waited {:.4g} ms",
-                         i + 1, stamps.size(), ms, wall_ms);
+      return fmt::format(
+          "timestamp {} of {} lies {:.4g} ms after the one before it, or before it; the host waited {:.4g} "
+          "ms",
+          i + 1, stamps.size(), ms, wall_ms);
     }
   }
   if (stamps.empty()) return "";

@@ -9,7 +9,8 @@ namespace {
 
 const TimestampClock kNanoseconds{1e-6, 64};
 
-std::string fault(std::vector<uint64_t> stamps, double wall_ms = 10, const TimestampClock& clock = kNanoseconds) {
+std::string fault(std::vector<uint64_t> stamps, double wall_ms = 10,
+                  const TimestampClock& clock = kNanoseconds) {
   return timestamp_fault(stamps, clock, wall_ms);
 }
 

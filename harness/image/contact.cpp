@@ -1,211 +1,161 @@
 #include "image/contact.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <span>
 
 #include "base/error.h"
+#include "image/canvas.h"
+#include "image/contact_tiles.h"
 #include "image/error_map.h"
-#include "image/text.h"
+#include "image/theme.h"
 
 namespace vsglbench {
 namespace {
 
-constexpr glm::u8vec3 kPaper{22, 23, 27}, kPanel{32, 33, 39}, kInk{238, 238, 240}, kFaint{160, 163, 172};
-constexpr uint32_t kMargin = 24, kGap = 20, kScale = 2, kLine = (kGlyphHeight + 2) * kScale, kBetween = 6;
-constexpr uint32_t kTitleScale = 3, kTitleHeight = (kGlyphHeight + 6) * kTitleScale;
-constexpr uint32_t kMinTile = 400, kMinHeight = 180, kMaxTile = 960, kMaxWidth = 2048, kMaxColumns = 4;
-constexpr uint32_t kDetailLines = 2;
-
-void fill(Bitmap& bitmap, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height, glm::u8vec3 color) {
-  for (uint32_t y = y0; y < std::min(y0 + height, bitmap.height); ++y) {
-    for (uint32_t x = x0; x < std::min(x0 + width, bitmap.width); ++x)
-      std::copy_n(&color.x, 3, bitmap.at(x, y));
-  }
-}
-
-void blit(Bitmap& onto, uint32_t x, uint32_t y, const Bitmap& tile) {
-  for (uint32_t row = 0; row < tile.height; ++row) {
-    std::copy_n(tile.at(0, row), size_t(3) * tile.width, onto.at(x, y + row));
-  }
-}
-
-// How an image becomes a tile: each pixel repeated `up` times, or the mean of `down`² pixels. The tile's
-// place on the sheet may be larger than the image, so that its captions have room.
-struct TileSize {
-  uint32_t up = 1, down = 1, width = 0, height = 0;
-};
-
-TileSize tile_size(uint32_t width, uint32_t height) {
-  TileSize t;
-  const uint32_t longer = std::max(width, height);
-  if (width < kMinTile) t.up = std::clamp(kMaxTile / longer, 1u, (kMinTile + width - 1) / width);
-  if (longer > kMaxTile) t.down = (longer + kMaxTile - 1) / kMaxTile;
-  t.width = std::max(kMinTile, (width + t.down - 1) / t.down * t.up);
-  t.height = std::max(kMinHeight, (height + t.down - 1) / t.down * t.up);
-  return t;
-}
-
-Image reduce(const Image& image, uint32_t factor) {
-  Image out((image.width + factor - 1) / factor, (image.height + factor - 1) / factor);
-  for (uint32_t y = 0; y < out.height; ++y) {
-    for (uint32_t x = 0; x < out.width; ++x) {
-      glm::vec3 sum(0);
-      float count = 0;
-      for (uint32_t v = y * factor; v < std::min((y + 1) * factor, image.height); ++v) {
-        for (uint32_t u = x * factor; u < std::min((x + 1) * factor, image.width); ++u, ++count)
-          sum += image.at(u, v);
-      }
-      out.at(x, y) = sum / count;
-    }
-  }
-  return out;
-}
-
-// A reduced pixel shows a surface when any of its pixels does.
-Mask reduce(const Mask& mask, uint32_t width, uint32_t height, uint32_t factor) {
-  if (mask.empty() || factor == 1) return mask;
-  const uint32_t columns = (width + factor - 1) / factor;
-  Mask out(size_t(columns) * ((height + factor - 1) / factor), 0);
-  for (size_t i = 0; i < mask.size(); ++i) {
-    out[i / width / factor * columns + i % width / factor] |= mask[i];
-  }
-  return out;
-}
-
-Bitmap enlarge(const Bitmap& bitmap, uint32_t factor) {
-  if (factor == 1) return bitmap;
-  Bitmap out(bitmap.width * factor, bitmap.height * factor);
-  for (uint32_t y = 0; y < out.height; ++y) {
-    for (uint32_t x = 0; x < out.width; ++x) std::copy_n(bitmap.at(x / factor, y / factor), 3, out.at(x, y));
-  }
-  return out;
-}
-
-Bitmap image_tile(const ContactSheet& sheet, const Image& image, const TileSize& size) {
-  return enlarge(tone_map(size.down > 1 ? reduce(image, size.down) : image, sheet.exposure), size.up);
-}
-
-Bitmap error_tile(const ContactSheet& sheet, const ContactEntry& entry, const TileSize& size) {
-  const Image& reference = entry.reference ? *entry.reference : sheet.reference;
-  Image error = error_map(*entry.image, reference, sheet.mask);
-  const Mask mask = reduce(sheet.mask, error.width, error.height, size.down);
-  if (size.down > 1) error = reduce(error, size.down);
-  return enlarge(color_error_map(error, sheet.error_range, mask), size.up);
-}
-
-Bitmap text_tile(const std::string& text, const TileSize& size) {
-  Bitmap tile(size.width, size.height);
-  fill(tile, 0, 0, tile.width, tile.height, kPanel);
-  uint32_t y = kGap;
-  for (const auto& line : wrap_text(text, tile.width - 2 * kGap, kScale)) {
-    draw_text(tile, kGap, y, line, kFaint, kScale);
-    y += kLine;
-  }
-  return tile;
-}
-
-std::string signed_percent(float fraction) { return fmt::format("{:+.4g} %", 100 * fraction); }
-
-// The colour bar with its range, and what the other colours mean.
-Bitmap legend_tile(const ContactSheet& sheet, const TileSize& size) {
-  Bitmap tile(size.width, size.height);
-  fill(tile, 0, 0, tile.width, tile.height, kPanel);
-  const uint32_t width = tile.width - 2 * kGap, bar = 2 * kLine;
-  uint32_t y = kGap;
-  draw_text(tile, kGap, y, fit_text("error: 2(x-r) / (|x|+|r|)", width, kScale), kInk, kScale);
-  y += kLine + kBetween;
-  for (uint32_t x = 0; x < width; ++x) {
-    fill(tile, kGap + x, y, 1, bar, diverging_color(2 * (x + 0.5f) / static_cast<float>(width) - 1));
-  }
-  y += bar + kBetween;
-  // Range under the bar's ends and middle, the meaning under the range.
-  const auto put = [&](float at, std::string_view text, uint32_t row, glm::u8vec3 color) {
-    const uint32_t room = width - std::min(width, text_width(text, kScale));
-    draw_text(tile, kGap + static_cast<uint32_t>(at * static_cast<float>(room)), row, text, color, kScale);
-  };
-  put(0, signed_percent(-sheet.error_range), y, kInk);
-  put(0.5f, "0", y, kInk);
-  put(1, signed_percent(sheet.error_range), y, kInk);
-  put(0, "too dark", y + kLine, kFaint);
-  put(1, "too bright", y + kLine, kFaint);
-  y += 2 * kLine + kBetween;
-  for (const auto& line : {std::string("grey: no surface"), std::string("magenta: NaN or Inf"),
-                           fmt::format("exposure of all tiles: {:.3g}", sheet.exposure)}) {
-    draw_text(tile, kGap, y, fit_text(line, width, kScale), kFaint, kScale);
-    y += kLine;
-  }
-  return tile;
-}
+constexpr uint32_t kMargin = 24, kGap = 20, kBetween = 6, kTitleHeight = 44;
+constexpr uint32_t kMaxWidth = 2048, kMaxColumns = 4, kDetailLines = 3, kLine = 20, kHead = 4 * kLine + 4;
+constexpr double kTitle = 24, kCaption = 17, kDetail = 15;
 
 struct Cell {
   std::string caption, detail;
   Bitmap upper, lower;
 };
 
+Cell entry_cell(const ContactSheet& sheet, const ContactEntry& entry, const TileSize& size) {
+  if (!entry.image) return {entry.caption, "no image", text_tile(entry.detail, size), text_tile("", size)};
+  if (entry.image->width != sheet.reference.width || entry.image->height != sheet.reference.height) {
+    throw fail(ErrorKind::case_failed, "contact sheet: '{}' is {}x{} but the reference {}x{}", entry.caption,
+               entry.image->width, entry.image->height, sheet.reference.width, sheet.reference.height);
+  }
+  Image error = error_map(*entry.image, entry.reference ? *entry.reference : sheet.reference, sheet.mask);
+  const std::string clipped =
+      fmt::format("errors beyond ±{:.4g} % clipped: {:.2g} % of pixels", 100 * sheet.error_range,
+                  100 * clipped_share(error, sheet.error_range, sheet.mask));
+  return {entry.caption, entry.detail + "\n" + clipped, image_tile(sheet, *entry.image, size),
+          error_tile(sheet, std::move(error), size)};
+}
+
+// The reference and its legend first.
 std::vector<Cell> make_cells(const ContactSheet& sheet, const TileSize& size) {
   std::vector<Cell> cells;
   cells.push_back({"reference", sheet.reference_detail, image_tile(sheet, sheet.reference, size),
                    legend_tile(sheet, size)});
-  for (const ContactEntry& entry : sheet.entries) {
-    if (!entry.image) {
-      cells.push_back({entry.caption, "no image", text_tile(entry.detail, size), text_tile("", size)});
-      continue;
-    }
-    if (entry.image->width != sheet.reference.width || entry.image->height != sheet.reference.height) {
-      throw fail(ErrorKind::case_failed, "contact sheet: '{}' is {}x{} but the reference {}x{}",
-                 entry.caption, entry.image->width, entry.image->height, sheet.reference.width,
-                 sheet.reference.height);
-    }
-    cells.push_back(
-        {entry.caption, entry.detail, image_tile(sheet, *entry.image, size), error_tile(sheet, entry, size)});
-  }
+  for (const ContactEntry& entry : sheet.entries) cells.push_back(entry_cell(sheet, entry, size));
   return cells;
 }
 
 // Where the text says so it goes on in a new line, else where it has to.
-std::vector<std::string> detail_lines(const std::string& text, uint32_t width) {
-  const size_t end = text.find('\n');
-  if (end == std::string::npos) return wrap_text(text, width, kScale);
-  return {fit_text(text.substr(0, end), width, kScale), fit_text(text.substr(end + 1), width, kScale)};
+std::vector<std::string> detail_lines(const std::string& text, const Font& font, double width) {
+  std::vector<std::string> lines;
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    for (auto& line : font.wrap(text.substr(at, end - at), width)) lines.push_back(std::move(line));
+    at = end + 1;
+  }
+  if (lines.size() > kDetailLines) lines.resize(kDetailLines);
+  return lines;
 }
 
+// How many cells stand beside each other and below each other.
+struct Grid {
+  uint32_t columns, rows;
+  uint32_t width(const TileSize& size) const { return 2 * kMargin + columns * (size.width + kGap) - kGap; }
+  uint32_t height(const TileSize& size) const {
+    return 2 * kMargin + kTitleHeight + rows * (kHead + 2 * size.height + kBetween + kGap) - kGap;
+  }
+};
+
 // As many columns as fit, then as few as need the same number of rows.
-uint32_t column_count(const ContactSheet& sheet, uint32_t tile_width) {
-  const auto cells = static_cast<uint32_t>(sheet.entries.size() + 1);
-  uint32_t columns = sheet.columns;
-  if (columns == 0) columns = std::min(kMaxColumns, (kMaxWidth - 2 * kMargin + kGap) / (tile_width + kGap));
-  columns = std::clamp(columns, 1u, cells);
-  const uint32_t rows = (cells + columns - 1) / columns;
-  return (cells + rows - 1) / rows;
+Grid grid_of(size_t cells, const TileSize& size, uint32_t side) {
+  const uint32_t room = std::min(kMaxWidth, side) - 2 * kMargin + kGap;
+  const auto count = static_cast<uint32_t>(cells);
+  const uint32_t columns = std::clamp(std::min(kMaxColumns, room / (size.width + kGap)), 1u, count);
+  const uint32_t rows = (count + columns - 1) / columns;
+  return {(count + rows - 1) / rows, rows};
+}
+
+void draw_cell(Canvas* page, const Cell& cell, uint32_t x, uint32_t y, const TileSize& size) {
+  static const Font caption(kCaption), detail(kDetail);
+  page->text({x, y}, caption.fit(cell.caption, size.width), caption, {theme().ink});
+  double line = y + kLine + 2;
+  for (const auto& text : detail_lines(cell.detail, detail, size.width)) {
+    page->text({x, line}, text, detail, {theme().faint});
+    line += kLine;
+  }
+  page->picture(x, y + kHead, cell.upper);
+  page->picture(x, y + kHead + size.height + kBetween, cell.lower);
+}
+
+Bitmap draw_page(const std::string& title, const std::string& number, const Cell& reference,
+                 std::span<const Cell> entries, const TileSize& size, uint32_t side) {
+  const Grid grid = grid_of(entries.size() + 1, size, side);
+  Canvas page(grid.width(size), grid.height(size), theme().paper);
+  static const Font font(kTitle);
+  const double right = grid.width(size) - kMargin - font.width(number);
+  page.text({kMargin, kMargin - 4}, font.fit(title, right - 2 * kMargin), font, {theme().ink});
+  page.text({right, kMargin - 4}, number, font, {theme().faint});
+  for (uint32_t i = 0; i <= entries.size(); ++i) {
+    const uint32_t x = kMargin + i % grid.columns * (size.width + kGap);
+    const uint32_t y =
+        kMargin + kTitleHeight + i / grid.columns * (kHead + 2 * size.height + kBetween + kGap);
+    draw_cell(&page, i == 0 ? reference : entries[i - 1], x, y, size);
+  }
+  return page.bitmap();
+}
+
+struct Pages {
+  std::vector<Bitmap> bitmaps;
+  double excess = 0;  // how many times a limit's size the first page is that passes one; 0: all keep within
+};
+
+// The cells on `count` pages, alike in number.
+Pages pages_of(const ContactSheet& sheet, const std::vector<Cell>& cells, size_t count, const TileSize& size,
+               const PageLimits& limits) {
+  const std::span<const Cell> entries(cells.data() + 1, cells.size() - 1);
+  Pages out;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t from = entries.size() * i / count, to = entries.size() * (i + 1) / count;
+    const std::string number = count == 1 ? "" : fmt::format("page {} of {}", i + 1, count);
+    const Grid grid = grid_of(to - from + 1, size, limits.side);
+    out.excess = double(std::max(grid.width(size), grid.height(size))) / limits.side;
+    if (out.excess > 1) return out;
+    const Bitmap page =
+        draw_page(sheet.title, number, cells[0], entries.subspan(from, to - from), size, limits.side);
+    out.excess = double(encode_png(page).size()) / double(limits.bytes);
+    if (out.excess > 1) return out;
+    out.bitmaps.push_back(page);
+  }
+  out.excess = 0;
+  return out;
 }
 
 }  // namespace
 
-Bitmap contact_sheet(const ContactSheet& sheet) {
+std::vector<Bitmap> contact_pages(const ContactSheet& sheet, const PageLimits& limits) {
   if (sheet.reference.pixels.empty())
     throw fail(ErrorKind::case_failed, "contact sheet: the reference is empty");
-  const TileSize size = tile_size(sheet.reference.width, sheet.reference.height);
-  const std::vector<Cell> cells = make_cells(sheet, size);
-  const uint32_t columns = column_count(sheet, size.width);
-  const uint32_t rows = (static_cast<uint32_t>(cells.size()) + columns - 1) / columns;
-  const uint32_t head = (1 + kDetailLines) * kLine, cell_height = head + 2 * size.height + kBetween;
-
-  Bitmap out(2 * kMargin + columns * (size.width + kGap) - kGap,
-             2 * kMargin + kTitleHeight + rows * (cell_height + kGap) - kGap);
-  fill(out, 0, 0, out.width, out.height, kPaper);
-  draw_text(out, kMargin, kMargin, fit_text(sheet.title, out.width - 2 * kMargin, kTitleScale), kInk,
-            kTitleScale);
-  for (uint32_t i = 0; i < cells.size(); ++i) {
-    const uint32_t x = kMargin + i % columns * (size.width + kGap);
-    const uint32_t y = kMargin + kTitleHeight + i / columns * (cell_height + kGap);
-    draw_text(out, x, y, fit_text(cells[i].caption, size.width, kScale), kInk, kScale);
-    const std::vector<std::string> detail = detail_lines(cells[i].detail, size.width);
-    for (uint32_t line = 0; line < std::min<size_t>(detail.size(), kDetailLines); ++line)
-      draw_text(out, x, y + (1 + line) * kLine, detail[line], kFaint, kScale);
-    blit(out, x, y + head, cells[i].upper);
-    blit(out, x, y + head + size.height + kBetween, cells[i].lower);
+  // Tiles are made smaller only where a page of one entry is too large.
+  const uint32_t longer = std::max(sheet.reference.width, sheet.reference.height);
+  for (uint32_t down = tile_size(sheet.reference).down; down <= longer; ++down) {
+    const TileSize size = tile_size(sheet.reference, down);
+    const std::vector<Cell> cells = make_cells(sheet, size);
+    const size_t most = std::max<size_t>(1, sheet.entries.size());
+    for (size_t count = 1, tried = 0; tried < most;) {
+      const Pages pages = pages_of(sheet, cells, count, size, limits);
+      if (pages.excess == 0) return pages.bitmaps;
+      tried = count;
+      // On fewer, each would hold too much.
+      count = std::min(most, std::max(count + 1, static_cast<size_t>(0.8 * pages.excess * double(count))));
+    }
   }
-  return out;
+  throw fail(ErrorKind::case_failed, "contact sheet: no page keeps within {} pixels a side and {} bytes",
+             limits.side, limits.bytes);
+}
+
+std::string page_name(const std::string& stem, size_t page, size_t pages) {
+  return pages == 1 ? stem : fmt::format("{}-{}", stem, page + 1);
 }
 
 }  // namespace vsglbench

@@ -1,25 +1,16 @@
 #include "image/error_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "image/theme.h"
 
 namespace vsglbench {
 namespace {
 
-constexpr glm::u8vec3 kMasked{70, 70, 74}, kNotFinite{255, 0, 255};
-
-// Control points at t = -1, -2/3, -1/3, 0, 1/3, 2/3, 1 (sRGB).
-constexpr std::array<glm::vec3, 7> kDiverging = {{{190, 232, 255},
-                                                  {72, 150, 236},
-                                                  {26, 66, 142},
-                                                  {14, 14, 18},
-                                                  {140, 36, 30},
-                                                  {240, 110, 40},
-                                                  {255, 232, 150}}};
+constexpr glm::u8vec3 kNotFinite{255, 0, 255};
 
 }  // namespace
 
@@ -41,10 +32,21 @@ Image error_map(const Image& x, const Image& r, const Mask& mask) {
   return out;
 }
 
+double clipped_share(const Image& error, float range, const Mask& mask) {
+  size_t counted = 0, clipped = 0;
+  for (size_t i = 0; i < error.pixels.size(); ++i) {
+    if (!mask.empty() && mask[i] == 0) continue;
+    ++counted;
+    clipped += std::abs(error.pixels[i].x) > range;
+  }
+  return counted == 0 ? 0 : static_cast<double>(clipped) / static_cast<double>(counted);
+}
+
 glm::u8vec3 diverging_color(float t) {
-  const float at = (std::clamp(t, -1.0f, 1.0f) + 1) * 0.5f * (kDiverging.size() - 1);
-  const size_t k = std::min(static_cast<size_t>(at), kDiverging.size() - 2);
-  return glm::u8vec3(glm::mix(kDiverging[k], kDiverging[k + 1], at - static_cast<float>(k)) + 0.5f);
+  const auto& colors = theme().errors;
+  const float at = (std::clamp(t, -1.0f, 1.0f) + 1) * 0.5f * (colors.size() - 1);
+  const size_t k = std::min(static_cast<size_t>(at), colors.size() - 2);
+  return glm::u8vec3(glm::mix(colors[k], colors[k + 1], at - static_cast<float>(k)) + 0.5f);
 }
 
 Bitmap color_error_map(const Image& error, float range, const Mask& mask) {
@@ -52,7 +54,7 @@ Bitmap color_error_map(const Image& error, float range, const Mask& mask) {
   for (size_t i = 0; i < error.pixels.size(); ++i) {
     const float e = error.pixels[i].x;
     glm::u8vec3 color = std::isfinite(e) ? diverging_color(e / range) : kNotFinite;
-    if (std::isfinite(e) && !mask.empty() && mask[i] == 0) color = kMasked;
+    if (std::isfinite(e) && !mask.empty() && mask[i] == 0) color = theme().no_surface;
     for (int c = 0; c < 3; ++c) out.bytes[3 * i + c] = color[c];
   }
   return out;

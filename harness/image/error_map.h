@@ -10,8 +10,12 @@ namespace vsglbench {
 // Inf in either image gives NaN. Throws Error(case_failed) when sizes differ.
 Image error_map(const Image& x, const Image& r, const Mask& mask = {});
 
-// Diverging colours of t in −1 … 1 (clamped): pale blue, blue, near-black at 0, red, pale yellow. Lightness
-// grows with |t|, so that a correct image is dark and an error stands out.
+// Share of the pixels in the mask whose error is beyond ±range.
+double clipped_share(const Image& error, float range, const Mask& mask = {});
+
+// The theme's diverging colours of t in −1 … 1 (clamped): blue where it is too dark, red where it is too
+// bright. Dark theme: pale ends round near-black, so that a correct image is dark and an error stands out;
+// light theme: dark ends round white.
 glm::u8vec3 diverging_color(float t);
 
 // error_map's first channel in diverging_color(error / range); masked pixels grey, NaN magenta.

@@ -70,9 +70,11 @@ std::string channel_name(const std::string& layer, char component) {
 // A float channel of `width` columns whose first value is at `data`, for a data window that starts at
 // `origin`.
 Imf::Slice float_slice(const float* data, const Imath::V2i& origin, size_t stride, size_t width) {
+  // What would be the value at (0, 0), which may lie outside of the array.
   const auto address = reinterpret_cast<intptr_t>(data) -
                        static_cast<intptr_t>((origin.x + static_cast<intptr_t>(origin.y) * width) * stride);
-  return Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(address), stride, stride * width);
+  char* base = reinterpret_cast<char*>(address);  // NOLINT(performance-no-int-to-ptr)
+  return Imf::Slice(Imf::FLOAT, base, stride, stride * width);
 }
 
 void insert_color(Imf::FrameBuffer& frame, const std::string& layer, const Image& image,

@@ -175,35 +175,3 @@ TEST(Metrics, ExposureMapsTheBrightTwentiethToTheKey) {
   spark.pixels[7] = glm::vec3(5);
   EXPECT_NEAR(auto_exposure(spark), 0.8f / 5, 1e-6);
 }
-
-TEST(ErrorMap, SignsAndLimits) {
-  Image x(5, 1), r(5, 1);
-  x.pixels = {glm::vec3(3), glm::vec3(1), glm::vec3(0), glm::vec3(2), glm::vec3(kNaN)};
-  r.pixels = {glm::vec3(1), glm::vec3(3), glm::vec3(0), glm::vec3(0), glm::vec3(1)};
-  const Image e = error_map(x, r);
-  EXPECT_NEAR(e.pixels[0].x, 1, 1e-6);
-  EXPECT_NEAR(e.pixels[1].x, -1, 1e-6);
-  EXPECT_EQ(e.pixels[2].x, 0);
-  EXPECT_NEAR(e.pixels[3].x, 2, 1e-6);
-  EXPECT_TRUE(std::isnan(e.pixels[4].x));
-  EXPECT_EQ(error_map(x, r, {0, 1, 1, 1, 0}).pixels[0].x, 0);
-  EXPECT_THROW(error_map(x, Image(4, 1)), Error);
-}
-
-TEST(ErrorMap, ColoursDivergeFromTheDark) {
-  const auto light = [](glm::u8vec3 c) { return luminance(glm::vec3(c)); };
-  for (int k = 1; k <= 100; ++k) {
-    EXPECT_GT(light(diverging_color(0.01f * k)), light(diverging_color(0.01f * (k - 1))) - 0.5f) << k;
-    EXPECT_GT(light(diverging_color(-0.01f * k)), light(diverging_color(-0.01f * (k - 1))) - 0.5f) << k;
-  }
-  EXPECT_GT(diverging_color(0.4f).x, diverging_color(0.4f).z);    // too bright: red
-  EXPECT_GT(diverging_color(-0.4f).z, diverging_color(-0.4f).x);  // too dark: blue
-  EXPECT_EQ(diverging_color(1), diverging_color(7));
-  Image e(3, 1);
-  e.pixels[1] = glm::vec3(kNaN);
-  const Bitmap b = color_error_map(e, 1, {1, 1, 0});
-  EXPECT_EQ(b.at(0, 0)[0], diverging_color(0).x);
-  EXPECT_EQ(b.at(1, 0)[0], 255);
-  EXPECT_EQ(b.at(1, 0)[1], 0);
-  EXPECT_NE(b.at(2, 0)[0], b.at(0, 0)[0]);
-}

@@ -40,11 +40,11 @@ Bitmap tone_map(const Image& image, float exposure) {
   return out;
 }
 
-void write_png(const fs::path& path, const Bitmap& bitmap) {
+std::string encode_png(const Bitmap& bitmap) {
   const uint64_t size = uint64_t(bitmap.width) * bitmap.height * bitmap.channels;
   if (size == 0 || bitmap.bytes.size() != size || (bitmap.channels != 3 && bitmap.channels != 4)) {
-    throw fail(ErrorKind::output, "{}: cannot be written as PNG: {}x{} pixels of {} channels in {} bytes",
-               path.string(), bitmap.width, bitmap.height, bitmap.channels, bitmap.bytes.size());
+    throw fail(ErrorKind::output, "cannot be written as PNG: {}x{} pixels of {} channels in {} bytes",
+               bitmap.width, bitmap.height, bitmap.channels, bitmap.bytes.size());
   }
   PngImage png;
   png.width = bitmap.width;
@@ -52,10 +52,19 @@ void write_png(const fs::path& path, const Bitmap& bitmap) {
   png.format = bitmap.channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string encoded(bytes, '\0');
-  if (!png_image_write_to_memory(&png, encoded.data(), &bytes, 0, bitmap.bytes.data(), 0, nullptr)) {
-    throw fail(ErrorKind::output, "{}: cannot be written as PNG: {}", path.string(), png.message);
-  }
+  if (!png_image_write_to_memory(&png, encoded.data(), &bytes, 0, bitmap.bytes.data(), 0, nullptr))
+    throw fail(ErrorKind::output, "cannot be written as PNG: {}", png.message);
   encoded.resize(bytes);
+  return encoded;
+}
+
+void write_png(const fs::path& path, const Bitmap& bitmap) {
+  std::string encoded;
+  try {
+    encoded = encode_png(bitmap);
+  } catch (const Error& e) {
+    throw fail(ErrorKind::output, "{}: {}", path.string(), e.what());
+  }
   write_text(path, encoded);
 }
 

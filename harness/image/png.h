@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "image/image.h"
@@ -25,6 +26,9 @@ uint8_t encode_srgb(float value);
 
 // encode_srgb(exposure · radiance) per channel; a pixel with a NaN or Inf is drawn magenta (255, 0, 255).
 Bitmap tone_map(const Image& image, float exposure);
+
+// A PNG file's bytes. Throws Error(output) when the bitmap is empty.
+std::string encode_png(const Bitmap& bitmap);
 
 // Throws Error(output) when the bitmap is empty or the disk refuses; nothing is left half written.
 void write_png(const std::filesystem::path& path, const Bitmap& bitmap);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/csv.h"
+
 namespace vsglbench {
 namespace {
 
@@ -55,18 +57,14 @@ Json fields(const gpu::Vpl& l, const glm::dvec3& origin) {
   return out;
 }
 
-template <class Light>
-void append(const std::vector<Light>& lights, const LightSet& set, const glm::dvec3& origin, Json* list) {
-  for (size_t i = 0; i < lights.size(); ++i) {
-    if (!(lights[i].power > 0)) continue;
-    Json light = {{"index", i}};
-    light.update(fields(lights[i], origin));
-    if (i < set.shapes.squares.size()) {
-      const glm::vec4& s = set.shapes.squares[i];
-      light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
-    }
-    list->push_back(std::move(light));
-  }
+// What any light has: of a kind whose record has no list of its own above.
+template <class Record>
+Json fields(const Record& light, const glm::dvec3& origin) {
+  const LightSummary s = summary_of(light);
+  Json out = {{"position", world(origin, s.position)}, {"power", shortest(s.power)}};
+  if (s.variance > 0) out["sigma"] = shortest(std::sqrt(s.variance));
+  if (s.radius > 0) out["radius"] = shortest(s.radius);
+  return out;
 }
 
 // "/diffuse/axis/0" as "diffuse.axis.0".
@@ -76,20 +74,20 @@ std::string column_of(const std::string& pointer) {
   return name;
 }
 
-template <class Light>
-uint64_t without_power(const std::vector<Light>& lights) {
-  const auto dark = [](const Light& l) { return !(l.power > 0); };
-  return static_cast<uint64_t>(std::count_if(lights.begin(), lights.end(), dark));
-}
-
 }  // namespace
 
-uint64_t LightSet::empty() const { return without_power(vsgls) + without_power(vpls); }
-
-Json light_list(const LightSet& lights, const glm::dvec3& origin) {
+Json light_list(const LightSet& set, const glm::dvec3& origin) {
   Json list = Json::array();
-  append(lights.vsgls, lights, origin, &list);
-  append(lights.vpls, lights, origin, &list);
+  set.lights.each([&](size_t i, const auto& record) {
+    if (!(record.power > 0)) return;
+    Json light = {{"index", i}};
+    light.update(fields(record, origin));
+    if (i < set.shapes.squares.size()) {
+      const glm::vec4& s = set.shapes.squares[i];
+      light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
+    }
+    list.push_back(std::move(light));
+  });
   return list;
 }
 
@@ -102,16 +100,15 @@ std::string to_csv(const Json& list) {
       if (std::find(columns.begin(), columns.end(), pointer) == columns.end()) columns.push_back(pointer);
     }
   }
-  std::string text;
-  for (const auto& pointer : columns) text += (text.empty() ? "" : ",") + column_of(pointer);
-  text += "\n";
+  std::vector<std::string> cells;
+  for (const auto& pointer : columns) cells.push_back(column_of(pointer));
+  std::string text = csv_row(cells);
   for (const Json& row : rows) {
     for (size_t i = 0; i < columns.size(); ++i) {
       const auto cell = row.find(columns[i]);
-      if (i > 0) text += ",";
-      if (cell != row.end()) text += cell->is_string() ? cell->get<std::string>() : cell->dump();
+      cells[i] = cell == row.end() ? "" : cell->is_string() ? cell->get<std::string>() : cell->dump();
     }
-    text += "\n";
+    text += csv_row(cells);
   }
   return text;
 }

@@ -5,22 +5,20 @@
 #include <vector>
 
 #include "base/json.h"
-#include "frame/frame.h"
+#include "frame/light_records.h"
 #include "lights/coverage.h"
 
 namespace vsglbench {
 
 // All that one case made on the RSM, read back.
 struct LightSet {
-  LightKind kind = LightKind::vsgl;
-  uint32_t rsm = 0;              // texels a side
-  std::vector<gpu::Vsgl> vsgls;  // one of the two is empty
-  std::vector<gpu::Vpl> vpls;
+  LightRecords lights;
+  uint32_t rsm = 0;  // texels a side
   RsmShapes shapes;
   std::vector<float> pdf;  // on the RSM, of any scale, row by row; empty where the method uses none
 
-  uint32_t count() const { return static_cast<uint32_t>(vsgls.size() + vpls.size()); }
-  uint64_t empty() const;  // lights without power
+  uint32_t count() const { return static_cast<uint32_t>(lights.count()); }
+  uint64_t empty() const { return count_without_power(lights); }
 };
 
 // One object a light of power above 0, in the order of the method; positions are world coordinates in double,

@@ -36,7 +36,7 @@ gpu::Vpl vpl() {
 
 LightSet two_vsgls() {
   LightSet set;
-  set.vsgls = {gpu::Vsgl{}, vsgl()};  // the first has no power
+  set.lights = records_of(LightKind::vsgl, std::vector{gpu::Vsgl{}, vsgl()});  // the first has no power
   set.shapes.squares = {{}, {8.5f, 4.5f, 11.3f, 0}};
   return set;
 }
@@ -67,10 +67,10 @@ TEST(LightList, VsglInWorldCoordinates) {
 
 TEST(LightList, VplsHaveTheirBrdf) {
   LightSet set;
-  set.kind = LightKind::vsl;
-  set.vpls = {vpl(), vpl()};
-  set.vpls[1].ndf = -50;
-  set.vpls[1].radius = 0.125f;
+  std::vector vsls = {vpl(), vpl()};
+  vsls[1].ndf = -50;
+  vsls[1].radius = 0.125f;
+  set.lights = records_of(LightKind::vsl, vsls);
   const Json list = light_list(set, {});
   EXPECT_EQ(list[0].at("brdf").at("alpha").dump(), "0.3");
   EXPECT_FALSE(list[0].contains("radius") || list[0].contains("clamp"));
@@ -82,8 +82,9 @@ TEST(LightList, VplsHaveTheirBrdf) {
 // Every row has a cell for every column, also where lights differ in what they have.
 TEST(LightList, CsvIsATable) {
   LightSet set;
-  set.vpls = {vpl(), vpl()};
-  set.vpls[1].ndf = -50;
+  std::vector vpls = {vpl(), vpl()};
+  vpls[1].ndf = -50;
+  set.lights = records_of(LightKind::vpl, vpls);
   std::istringstream in(to_csv(light_list(set, {})));
   std::string head, first, second, rest;
   ASSERT_TRUE(std::getline(in, head) && std::getline(in, first) && std::getline(in, second));

@@ -4,25 +4,27 @@
 #include <cmath>
 #include <numbers>
 
-#include "image/draw.h"
+#include "image/canvas.h"
 #include "image/metrics.h"
-#include "image/text.h"
+#include "image/theme.h"
 
 namespace vsglbench {
 namespace {
 
-constexpr glm::u8vec3 kPaper{22, 23, 27}, kInk{238, 238, 240}, kFaint{160, 163, 172};
-constexpr glm::u8vec3 kRed{255, 32, 32}, kOrange{255, 165, 40};
-constexpr uint32_t kMargin = 12, kScale = 2, kLine = (kGlyphHeight + 2) * kScale;
+// Of Okabe and Ito's palette: the colour-blind tell them apart, and both from grey.
+constexpr glm::u8vec3 kPoint{230, 159, 0}, kOutline{86, 180, 233};
+constexpr uint32_t kMargin = 12, kLine = 22;
+constexpr double kText = 16, kLabel = 15;
 constexpr uint32_t kLeastWidth = 1280;  // of a picture
 constexpr uint32_t kRsmEdge = 1024, kMostPixels = 16;
+constexpr size_t kDisks = 96, kLabels = 10;  // of the strongest lights in view
 
 // --- captions ---
 
-std::vector<std::string> wrapped(const std::vector<std::string>& lines, uint32_t width) {
+std::vector<std::string> wrapped(const std::vector<std::string>& lines, const Font& font, double width) {
   std::vector<std::string> out;
   for (const auto& line : lines) {
-    for (const auto& part : wrap_text(line, width, kScale)) out.push_back(part);
+    for (const auto& part : font.wrap(line, width)) out.push_back(part);
   }
   return out;
 }
@@ -30,24 +32,23 @@ std::vector<std::string> wrapped(const std::vector<std::string>& lines, uint32_t
 // The picture between two blocks of text.
 Bitmap framed(const Bitmap& picture, const std::vector<std::string>& above,
               const std::vector<std::string>& below) {
-  const auto head = wrapped(above, picture.width), foot = wrapped(below, picture.width);
+  const Font font(kText);
+  const auto head = wrapped(above, font, picture.width), foot = wrapped(below, font, picture.width);
   const auto lines = static_cast<uint32_t>(head.size() + foot.size());
-  Bitmap out(picture.width + 2 * kMargin, picture.height + 4 * kMargin + lines * kLine);
-  fill_rectangle(out, {0, 0}, {out.width, out.height}, {kPaper, 1});
+  Canvas out(picture.width + 2 * kMargin, picture.height + 4 * kMargin + lines * kLine, theme().paper);
   uint32_t y = kMargin;
   const auto write = [&](const std::vector<std::string>& text, glm::u8vec3 color) {
     for (const auto& line : text) {
-      draw_text(out, kMargin, y, line, color, kScale);
+      out.text({kMargin, y}, line, font, {color});
       y += kLine;
     }
     y += kMargin;
   };
-  write(head, kInk);
-  for (uint32_t row = 0; row < picture.height; ++row)
-    std::copy_n(picture.at(0, row), size_t(3) * picture.width, out.at(kMargin, y + row));
+  write(head, theme().ink);
+  out.picture(kMargin, y, picture);
   y += picture.height + kMargin;
-  write(foot, kFaint);
-  return out;
+  write(foot, theme().faint);
+  return out.bitmap();
 }
 
 // --- on the RSM ---
@@ -109,17 +110,17 @@ void draw_borders(Bitmap& bitmap, const std::vector<uint32_t>& clusters, const M
       const uint32_t here = clusters[m.texel(x, y)];
       const bool right = x + 1 < m.pixels && clusters[m.texel(x + 1, y)] != here;
       const bool below = y + 1 < m.pixels && clusters[m.texel(x, y + 1)] != here;
-      if (right || below) fill_rectangle(bitmap, {x, y}, {x + 1, y + 1}, {kOrange, 0.9f});
+      if (right || below) std::copy_n(&kOutline.x, 3, bitmap.at(x, y));
     }
   }
 }
 
-void draw_squares(Bitmap& bitmap, const std::vector<glm::vec4>& squares, const Magnifier& m) {
+void draw_squares(Canvas& canvas, const std::vector<glm::vec4>& squares, const Magnifier& m) {
   for (const glm::vec4& s : squares) {
     if (!(s.z > 0)) continue;
     const glm::dvec2 centre(s), half(0.5 * s.z);
-    const glm::ivec2 from(glm::round(m.scale * (centre - half))), to(glm::round(m.scale * (centre + half)));
-    outline_rectangle(bitmap, from, glm::max(to, from + 1), {kOrange, 0.8f});
+    const glm::dvec2 from = glm::round(m.scale * (centre - half)), to = glm::round(m.scale * (centre + half));
+    canvas.outline_rectangle(from, glm::max(to, from + 1.0), 1, {kOutline, 0.8f});
   }
 }
 
@@ -139,33 +140,23 @@ std::vector<glm::dvec2> points_of(const LightSet& lights, const View& light) {
 std::vector<std::string> rsm_legend(const LightSet& lights, const std::optional<Coverage>& c) {
   std::vector<std::string> legend;
   if (c) {
-    legend.push_back(fmt::format("overlap {:.3f}  gap {:.3f}  of the RSM's area", c->overlap, c->gap));
+    legend.push_back(
+        fmt::format("overlap {:.3f}, gap {:.3f}: means over the RSM's texels", c->overlap, c->gap));
     if (c->pdf_gap)
       legend.push_back(
-          fmt::format("overlap {:.3f}  gap {:.3f}  weighted by p", *c->pdf_overlap, *c->pdf_gap));
+          fmt::format("overlap {:.3f}, gap {:.3f}: weighted by the PDF p", *c->pdf_overlap, *c->pdf_gap));
   }
   const bool squares = !lights.shapes.squares.empty(), clusters = !lights.shapes.clusters.empty();
-  legend.push_back(squares    ? "red: footprint centres, orange: footprints"
-                   : clusters ? "red: lights as the primary light sees them, orange and tints: clusters"
-                              : "red: lights as the primary light sees them");
-  legend.push_back(lights.pdf.empty() ? "brightness: sqrt of diffuse reflectance (no PDF)"
-                                      : "brightness: sqrt(p / its 99.5th percentile)");
+  legend.push_back(
+      squares    ? "orange dots: footprint centres; blue squares: footprints"
+      : clusters ? "orange dots: lights as the primary light sees them; blue borders and tints: clusters"
+                 : "orange dots: lights as the primary light sees them");
+  legend.push_back(lights.pdf.empty() ? "brightness: √ of diffuse reflectance (the method uses no PDF)"
+                                      : "brightness: √(p / its 99.5th percentile)");
   return legend;
 }
 
 // --- in the scene ---
-
-// 2π(1-e^{-2λ})/λ [MFIS16 App. A].
-double sg_integral(double sharpness) {
-  const double y = 2 * sharpness;
-  return 4 * std::numbers::pi * (y > 0 ? -std::expm1(-y) / y : 1);
-}
-
-glm::vec3 reflected(const gpu::Vsgl& l) {
-  return glm::vec3(sg_integral(l.diffuse_sharpness) * glm::dvec3(l.diffuse) +
-                   sg_integral(l.specular_sharpness) * glm::dvec3(l.specular));
-}
-glm::vec3 reflected(const gpu::Vpl& l) { return l.flux * (l.diffuse + l.f0); }
 
 // Direct light at a third of its brightness over a little of how surfaces face the camera, so that what is
 // not lit shows.
@@ -193,6 +184,9 @@ struct Disk {
   double radius;
   glm::u8vec3 color;
   bool hidden;
+  uint32_t index;
+  float power;
+  bool strong = false;  // among the strongest
 };
 
 // By the farthest surface of the pixel and its neighbours: on a slanted one a light lies between two pixels'.
@@ -204,7 +198,8 @@ bool is_hidden(const LightMark& mark, const CameraView& camera, const glm::vec2&
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       const glm::ivec2 at = glm::clamp(pixel + glm::ivec2(x, y), glm::ivec2(0), last);
-      const glm::vec4& surface = camera.position[static_cast<size_t>(at.y * (last.x + 1) + at.x)];
+      const glm::vec4& surface = camera.position[static_cast<size_t>(at.y) * static_cast<size_t>(last.x + 1) +
+                                                 static_cast<size_t>(at.x)];
       if (!(surface.w > 0) || glm::distance(glm::vec3(surface), camera.view.position) >= allowed)
         return false;
     }
@@ -221,39 +216,61 @@ std::vector<Disk> disks_of(const LightSet& lights, const CameraView& camera) {
     if (!uv) continue;
     const double depth = glm::dot(mark.position - camera.view.position, camera.view.forward);
     disks.push_back({glm::dvec2(*uv) * size, 0.5 * size.y * mark.sigma / (depth * camera.view.extent.y),
-                     glm::u8vec3(glm::round(255.0f * mark.color)), is_hidden(mark, camera, *uv)});
+                     glm::u8vec3(glm::round(255.0f * mark.color)), is_hidden(mark, camera, *uv), mark.index,
+                     mark.power});
   }
-  std::sort(disks.begin(), disks.end(), [](const Disk& a, const Disk& b) {
+  std::stable_sort(disks.begin(), disks.end(),
+                   [](const Disk& a, const Disk& b) { return a.power > b.power; });
+  for (size_t i = 0; i < std::min(disks.size(), kDisks); ++i) disks[i].strong = true;
+  std::stable_sort(disks.begin(), disks.end(), [](const Disk& a, const Disk& b) {
     return a.hidden != b.hidden ? a.hidden : a.radius > b.radius;
   });
   return disks;
 }
 
 std::vector<std::string> scene_legend(const LightSet& lights, const std::vector<Disk>& disks) {
-  const auto hidden = std::count_if(disks.begin(), disks.end(), [](const Disk& d) { return d.hidden; });
-  const char* marks = lights.kind == LightKind::vsgl  ? "dots: means, disks: sigma"
-                      : lights.kind == LightKind::vsl ? "dots: lights, disks: their radius"
-                                                      : "dots: lights";
-  return {fmt::format("{} of {} lights in view, {} of them hidden (rings)", disks.size(),
+  const auto hidden = std::ranges::count_if(disks, [](const Disk& d) { return d.hidden; });
+  const std::string thinned =
+      disks.size() > kDisks ? fmt::format("; disks and rings of the {} strongest alone", kDisks) : "";
+  return {fmt::format("{} of {} lights in view, {} of them hidden", disks.size(),
                       lights.count() - lights.empty(), hidden),
-          fmt::format("{}; colour: of the flux; background: direct light, dimmed", marks)};
+          fmt::format("{}; rings: hidden ones{}", info_of(lights.lights.kind).marks, thinned),
+          "numbers: index of the strongest; colour: of the flux; background: direct light, dimmed"};
+}
+
+// The indices of the strongest lights that are not hidden, but those that would stand on another's.
+void label(Canvas& canvas, std::vector<Disk> disks, glm::dvec2 size) {
+  const Font font(kLabel);
+  std::erase_if(disks, [](const Disk& d) { return d.hidden; });
+  std::ranges::stable_sort(disks, [](const Disk& a, const Disk& b) { return a.power > b.power; });
+  if (disks.size() > kLabels) disks.resize(kLabels);
+  std::vector<glm::dvec4> taken;
+  for (const Disk& d : disks) {
+    const std::string text = std::to_string(d.index);
+    const glm::dvec2 box(font.width(text), 1.2 * kLabel);
+    const glm::dvec2 at =
+        glm::clamp(d.centre + glm::dvec2(5, -1.2 * kLabel), glm::dvec2(2), size - box - 2.0);
+    const bool free = std::ranges::none_of(taken, [&](const glm::dvec4& t) {
+      return at.x < t.z && t.x < at.x + box.x && at.y < t.w && t.y < at.y + box.y;
+    });
+    if (!free) continue;
+    taken.emplace_back(at, at + box);
+    canvas.text(at, text, font, {glm::u8vec3(255)}, glm::u8vec3(0));
+  }
 }
 
 }  // namespace
 
 std::vector<LightMark> light_marks(const LightSet& lights) {
   std::vector<LightMark> marks;
-  const auto add = [&](size_t i, const glm::vec3& position, float sigma, const glm::vec3& flux) {
+  uint32_t index = 0;
+  for (const LightSummary& light : summaries_of(lights.lights)) {
+    const glm::vec3& flux = light.color;
     const float top = std::max({flux.x, flux.y, flux.z, 1e-30f});
-    marks.push_back({static_cast<uint32_t>(i), position, sigma, glm::clamp(flux / top, 0.0f, 1.0f)});
-  };
-  for (size_t i = 0; i < lights.vsgls.size(); ++i) {
-    const gpu::Vsgl& l = lights.vsgls[i];
-    if (l.power > 0) add(i, l.mean, std::sqrt(l.variance), reflected(l));
-  }
-  for (size_t i = 0; i < lights.vpls.size(); ++i) {
-    const gpu::Vpl& l = lights.vpls[i];
-    if (l.power > 0) add(i, l.position, l.radius, reflected(l));
+    const float size = light.radius > 0 ? light.radius : std::sqrt(light.variance);
+    if (light.power > 0)
+      marks.push_back({index, light.position, size, glm::clamp(flux / top, 0.0f, 1.0f), light.power});
+    ++index;
   }
   return marks;
 }
@@ -263,34 +280,42 @@ Bitmap draw_on_rsm(const LightSet& lights, const View& light, const std::vector<
   const Magnifier magnifier(lights.rsm);
   Bitmap picture = draw_values(lights, lights.pdf.empty() ? fallback : lights.pdf, magnifier);
   if (!lights.shapes.clusters.empty()) draw_borders(picture, lights.shapes.clusters, magnifier);
-  draw_squares(picture, lights.shapes.squares, magnifier);
-  for (const glm::dvec2& point : points_of(lights, light))
-    fill_disk(picture, magnifier.scale * point, 2.2, {kRed, 1});
-  return framed(picture, captions, rsm_legend(lights, coverage));
+  Canvas canvas(picture);
+  draw_squares(canvas, lights.shapes.squares, magnifier);
+  for (const glm::dvec2& point : points_of(lights, light)) {
+    canvas.fill_disk(magnifier.scale * point, 3.2, {glm::u8vec3(0), 0.7f});  // a rim, on what is bright
+    canvas.fill_disk(magnifier.scale * point, 2.2, {kPoint, 1});
+  }
+  return framed(canvas.bitmap(), captions, rsm_legend(lights, coverage));
 }
 
 Bitmap draw_in_scene(const LightSet& lights, const CameraView& camera,
                      const std::vector<std::string>& captions) {
   const uint32_t scale = std::max(1u, (kLeastWidth + camera.direct.width - 1) / camera.direct.width);
-  Bitmap picture = background(camera, scale);
+  const Bitmap picture = background(camera, scale);
   auto disks = disks_of(lights, camera);
   double area = 0;
   for (Disk& d : disks) {
     d.centre *= scale;
     d.radius = std::max(scale * d.radius, 2.5);
-    area += std::numbers::pi * d.radius * d.radius;
+    if (d.strong) area += std::numbers::pi * d.radius * d.radius;
   }
   // The more the disks pile up the fainter, so that what is behind them shows.
   const double pixels = double(picture.width) * picture.height;
   const auto opacity = static_cast<float>(std::clamp(0.15 * pixels / std::max(area, 1.0), 0.02, 0.3));
+  Canvas canvas(picture);
   for (const Disk& d : disks) {
-    if (!d.hidden) fill_disk(picture, d.centre, d.radius, {d.color, opacity});
-    outline_disk(picture, d.centre, d.radius, 1.2, {d.color, d.hidden ? 0.3f : 0.6f});
+    if (!d.strong) continue;
+    if (!d.hidden) canvas.fill_disk(d.centre, d.radius, {d.color, opacity});
+    canvas.outline_disk(d.centre, d.radius, 1.2, {d.color, d.hidden ? 0.3f : 0.6f});
   }
-  for (const Disk& d : disks) {
-    if (!d.hidden) fill_disk(picture, d.centre, 2.5, {d.color, 1});
+  for (const bool strong : {false, true}) {  // weaker ones below
+    for (const Disk& d : disks) {
+      if (d.strong == strong && !d.hidden) canvas.fill_disk(d.centre, strong ? 2.5 : 1.3, {d.color, 1});
+    }
   }
-  return framed(picture, captions, scene_legend(lights, disks));
+  label(canvas, disks, {picture.width, picture.height});
+  return framed(canvas.bitmap(), captions, scene_legend(lights, disks));
 }
 
 }  // namespace vsglbench

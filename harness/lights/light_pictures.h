@@ -19,14 +19,15 @@ struct LightMark {
   glm::vec3 position{0};  // m
   float sigma = 0;        // m; 0: a point
   glm::vec3 color{0};     // of the flux that it reflects, largest channel 1
+  float power = 0;        // luminance, W
 };
 
 // Those of power above 0.
 std::vector<LightMark> light_marks(const LightSet& lights);
 
 // Brightness is the square root of p over its 99.5th percentile; `fallback` (a value a texel) stands in for
-// the PDF where the method uses none. Red points: centres of the footprints, or where the light's view shows
-// the lights' positions. Orange: outlines of the square footprints, or borders of the clusters, which are
+// the PDF where the method uses none. Orange points: centres of the footprints, or where the light's view
+// shows the lights' positions. Blue: outlines of the square footprints, or borders of the clusters, which are
 // tinted. A texel is as many whole pixels as make about 1024, 16 at most, 1024 pixels in all for an RSM above
 // that. `captions` stand above, `coverage` and what the marks mean below.
 Bitmap draw_on_rsm(const LightSet& lights, const View& light, const std::vector<float>& fallback,
@@ -42,7 +43,9 @@ struct CameraView {
 
 // Each light as a disk of its colour with its projected σ for a radius, and a dot at its projected position;
 // a faint ring alone where it is hidden: where all surfaces of its pixel and the eight around are nearer to
-// the camera by more than σ (and a thousandth of the distance).
+// the camera by more than σ (and a thousandth of the distance). Of many lights only the strongest have disks
+// and rings, the others smaller dots, and weak hidden ones no mark; the indices of the very strongest stand
+// beside their dots.
 Bitmap draw_in_scene(const LightSet& lights, const CameraView& camera,
                      const std::vector<std::string>& captions);
 

@@ -162,7 +162,7 @@ Json to_json(const BlockMap& map) {
 
 double device_ms(Recorder& recorder, const std::function<void()>& record) {
   recorder.begin();
-  recorder.pass("block", record);
+  recorder.pass({.step = "block"}, record);
   return recorder.submit_and_wait().span_ms;
 }
 

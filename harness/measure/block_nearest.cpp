@@ -25,7 +25,10 @@ class Hall {
       const glm::vec3 lo(-10, 0, 0), hi(10, 6, 30);
       if (d[k] != 0) t = std::min(t, ((d[k] > 0 ? hi[k] : lo[k]) - eye[k]) / d[k]);
     }
-    for (int i = 0; i < 10; ++i) t = std::min(t, column(eye, d, i % 2 ? 4.0f : -4.0f, 5.0f + 5.0f * (i / 2)));
+    for (int row = 1; row <= 5; ++row) {
+      for (const float side : {-4.0f, 4.0f})
+        t = std::min(t, column(eye, d, side, 5.0f * static_cast<float>(row)));
+    }
     return eye + t * d;
   }
 
@@ -55,7 +58,7 @@ class NearestBlock : public Block {
     draw_centres(input.ends_with("crowded"));
     field_.emitter.width = width;
     field_.emitter.height = height;
-    field_.maps[0] = &map_;
+    field_.maps.position = &map_;
     ids_ = Buffer(on_.device, "ids", size * 4);
     std::vector<Contestant> all;
     using Search = NearestCentre::Search;

@@ -1,10 +1,9 @@
-// Sources: Hyndman & Fan 1996 (quantile definitions); Efron 1979 (bootstrap); Abramowitz & Stegun 1964,
-// 26.7.3 and 26.7.4 (Student's distribution for whole degrees of freedom).
+// Sources: Hyndman & Fan 1996 (quantile definitions); Efron 1979 (bootstrap).
 #include "measure/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -23,21 +22,6 @@ std::vector<double> sorted_copy(std::span<const double> samples) {
   std::vector<double> out(samples.begin(), samples.end());
   std::sort(out.begin(), out.end());
   return out;
-}
-
-// P(|T| <= t) for `degrees` degrees of freedom [A&S 26.7.3 odd, 26.7.4 even].
-double student_within(double t, int degrees) {
-  const double theta = std::atan(t / std::sqrt(static_cast<double>(degrees)));
-  const double c = std::cos(theta), s = std::sin(theta);
-  const bool odd = degrees % 2 == 1;
-  if (degrees == 1) return 2 * theta / std::numbers::pi;
-  // Σ of the products of even over odd (odd over even) numbers times rising even powers of cos θ.
-  double term = odd ? c : 1, sum = term;
-  for (int k = odd ? 3 : 2; k < degrees; k += 2) {
-    term *= c * c * (k - 1) / k;
-    sum += term;
-  }
-  return odd ? 2 / std::numbers::pi * (theta + s * sum) : s * sum;
 }
 
 }  // namespace
@@ -83,12 +67,7 @@ Interval bootstrap_median_ci95(std::span<const double> samples, int resamples, u
 
 double student_t95(int degrees) {
   if (degrees < 1) throw std::invalid_argument("Student's t needs a degree of freedom");
-  double lo = 1.9, hi = 12.8;  // t95 falls from 12.7062 at one degree to 1.95996
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (student_within(middle, degrees) < 0.95 ? lo : hi) = middle;
-  }
-  return 0.5 * (lo + hi);
+  return boost::math::quantile(boost::math::students_t(degrees), 0.975);
 }
 
 MeanEstimate mean_ci95(std::span<const double> samples) {

@@ -7,6 +7,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "base/test_chi_squared.h"
+
 using namespace vsglbench;
 
 namespace {
@@ -22,6 +24,15 @@ double coverage(int trials, int n, double truth, Draw draw, MakeInterval make) {
     held += make(samples, static_cast<uint64_t>(t)).contains(truth);
   }
   return static_cast<double>(held) / trials;
+}
+
+template <class F>
+double integral(const F& f, double from, double to) {
+  constexpr int kPieces = 20000;
+  const double h = (to - from) / kPieces;
+  double sum = f(from) + f(to);
+  for (int i = 1; i < kPieces; ++i) sum += (i % 2 == 1 ? 4 : 2) * f(from + i * h);
+  return sum * h / 3;
 }
 
 }  // namespace
@@ -46,6 +57,27 @@ TEST(Statistics, StudentsTMatchesTheTables) {
   for (const auto& [degrees, t] : table) EXPECT_NEAR(student_t95(degrees), t, 5.1e-4) << degrees;
   EXPECT_NEAR(student_t95(100000), 1.959964, 5e-5);
   EXPECT_THROW(student_t95(0), std::invalid_argument);
+}
+
+// By Simpson's rule over the density.
+TEST(Statistics, QuantilesHoldTheirShareOfTheDensity) {
+  for (const int n : {1, 2, 3, 7, 8, 30, 120}) {
+    const double log_scale = std::lgamma((n + 1) / 2.0) - std::lgamma(n / 2.0) - 0.5 * std::log(n * M_PI);
+    const auto student = [&](double t) {
+      return std::exp(log_scale - (n + 1) / 2.0 * std::log1p(t * t / n));
+    };
+    EXPECT_NEAR(integral(student, 0, student_t95(n)), 0.475, 1e-10) << n << " degrees";
+    if (n == 1) continue;  // χ² of one degree has a pole at 0
+    const auto chi_squared = [&](double x) {
+      return x > 0    ? std::exp((n / 2.0 - 1) * std::log(x / 2) - x / 2 - std::lgamma(n / 2.0)) / 2
+             : n == 2 ? 0.5
+                      : 0;
+    };
+    const double above = chi_squared_limit(n, 4), below = chi_squared_limit(n, -2);
+    const double tail = integral(chi_squared, above, above + 300), body = integral(chi_squared, below, above);
+    EXPECT_NEAR(tail, 0.5 * std::erfc(4 / std::sqrt(2)), 1e-10) << n;
+    EXPECT_NEAR(body + tail, 1 - 0.5 * std::erfc(2 / std::sqrt(2)), 1e-9) << n;
+  }
 }
 
 TEST(Statistics, MeanIntervalByHand) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "gpu/limits.h"
 
 namespace vsglbench {
 namespace {
@@ -11,10 +12,10 @@ namespace {
 constexpr uint32_t kBlock = 64;           // as BLOCK in shaders/cluster_sum.glsl
 constexpr size_t kMomentsBytes = 18 * 4;  // Moments in scalar layout (shaders/moments.glsl)
 constexpr uint32_t kGroup = 32;           // as GROUP there
-// Texels of one cluster that a dispatch of the linear sum goes through on lavapipe: that ends a shader's
-// loops after 65535 rounds in all, without a word, and each texel is a round, each 64 another, each 4096 a
-// third.
+// Texels of one cluster that a dispatch of the linear sum goes through on lavapipe: each texel is a round,
+// each 64 another, each 4096 a third.
 constexpr uint32_t kMostTexels = 15 * kBlock * kBlock;
+static_assert(kMostTexels + kMostTexels / kBlock + kMostTexels / (kBlock * kBlock) < limits::loop_rounds);
 
 void check(const ClusterSum::SortedTexels& sorted, const LightTarget& target) {
   const auto see = [](const Buffer* buffer, size_t bytes, const char* name) {
@@ -32,11 +33,11 @@ void check(const ClusterSum::SortedTexels& sorted, const LightTarget& target) {
 // Pieces of the next level at most, whatever the clusters' sizes: each cluster has one that isn't full.
 uint32_t piece_bound(uint32_t items, uint32_t clusters) { return std::min(items, items / kBlock + clusters); }
 
-// One invocation an item; in two dimensions, as a device may allow no more than 65535 workgroups in one.
+// One invocation an item; in two dimensions, as a device may allow no more than limits::groups in one.
 template <class Push>
-void dispatch_items(Recorder& r, const Kernel& kernel, std::initializer_list<Binding> bindings,
-                    const Push& push, uint32_t items) {
-  const uint32_t groups = groups_for(items, kGroup), rows = groups_for(groups, 65535);
+void dispatch_items(Recorder& r, const Kernel& kernel, const Bindings& bindings, const Push& push,
+                    uint32_t items) {
+  const uint32_t groups = groups_for(items, kGroup), rows = groups_for(groups, limits::groups);
   r.dispatch(kernel, bindings, push, groups_for(groups, std::max(rows, 1u)), rows);
 }
 
@@ -76,16 +77,14 @@ void ClusterSum::record_linear(Recorder& r, const Field& field, const SortedTexe
   const bool cpu = context_.device().is_cpu();
   const uint32_t most = cpu ? kMostTexels : groups_for(sorted.count, kBlock * kBlock) * kBlock * kBlock;
   const Buffer& unfinished = scratch(field.half, "unfinished", target.count * kMomentsBytes);
-  const auto& m = field.maps;
   uint32_t round = 0;
   do {
     const struct {
       gpu::Emitter emitter;
       uint32_t clusters, most, round;
     } push{field.emitter, target.count, std::max(most, 1u), round};
-    dispatch_items(r, *linear_,
-                   {*m[0], *m[1], *m[2], *m[3], *m[4], *sorted.texels, starts, unfinished, *target.buffer},
-                   push, target.count);
+    dispatch_items(r, *linear_, {field.maps, *sorted.texels, starts, unfinished, *target.buffer}, push,
+                   target.count);
     r.barrier();
   } while (uint64_t{++round} * most < sorted.count);
 }
@@ -116,13 +115,11 @@ void ClusterSum::record_segmented(Recorder& r, const Field& field, const SortedT
   uint32_t bound = piece_bound(sorted.count, clusters);
   const Buffer* from = &scratch(field.half, "partials0", bound * kMomentsBytes);
   const Buffer* to = &scratch(field.half, "partials1", piece_bound(bound, clusters) * kMomentsBytes);
-  const auto& m = field.maps;
   const struct {
     gpu::Emitter emitter;
     uint32_t clusters, bound;
   } leaves{field.emitter, clusters, bound};
-  dispatch_items(r, *leaves_, {*m[0], *m[1], *m[2], *m[3], *m[4], *sorted.texels, starts, *from}, leaves,
-                 bound);
+  dispatch_items(r, *leaves_, {field.maps, *sorted.texels, starts, *from}, leaves, bound);
   r.barrier();
   // 4. Pieces of pieces.
   for (uint32_t level = 2; level <= levels; ++level) {

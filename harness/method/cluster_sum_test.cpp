@@ -38,8 +38,8 @@ class SumBench {
       images_[i] = DeviceImage(test_device(), "map", VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
                                VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
       images_[i].upload(maps[i].data(), maps[i].size() * sizeof(glm::vec4));
-      field_.maps[i] = &images_[i];
     }
+    field_.maps = {&images_[0], &images_[1], &images_[2], &images_[3], &images_[4]};
     for (uint32_t y = 0; y < h; ++y) {
       for (uint32_t x = 0; x < w; ++x) sums_.push_back(oracle::texel_sums(half_, x, y));
     }
@@ -64,7 +64,7 @@ class SumBench {
     out.upload(std::span<const gpu::Vsgl>(unwritten));
     ClusterSum sum(context_, variant);
     recorder_.begin();
-    recorder_.pass("sum", [&] {
+    recorder_.pass({.step = "sum"}, [&] {
       sum.record(recorder_, field_, {&id_buffer, &texel_buffer, static_cast<uint32_t>(ids.size())},
                  {&out, clusters});
     });

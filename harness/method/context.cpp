@@ -21,14 +21,17 @@ const Kernel& KernelLibrary::get(const std::filesystem::path& path, const Shader
   return *slot;
 }
 
-Buffer& ScratchPool::get(const std::string& name, size_t bytes) {
-  Buffer& buffer = buffers_[name];
-  if (!buffer || buffer.size() < bytes) {
-    buffer = Buffer();  // give the old one back first: both may not fit
-    buffer = Buffer(device_, name, bytes, kGuardBytes);
-    buffer.fill(unwritten_word, (buffer.size() + buffer.guard()) / 4 * 4, 0);
+Buffer& GrowingBuffer::get(Device& device, const std::string& name, size_t bytes) {
+  if (!buffer_ || buffer_.size() < bytes) {
+    buffer_ = Buffer();  // give the old one back first: both may not fit
+    buffer_ = Buffer(device, name, bytes, kGuardBytes);
+    buffer_.fill(unwritten_word, (buffer_.size() + buffer_.guard()) / 4 * 4, 0);
   }
-  return buffer;
+  return buffer_;
+}
+
+Buffer& ScratchPool::get(const std::string& name, size_t bytes) {
+  return buffers_[name].get(device_, name, bytes);
 }
 
 size_t ScratchPool::bytes() const {
@@ -54,15 +57,15 @@ const Kernel& MethodContext::use(const std::filesystem::path& path, const Shader
 }
 
 Buffer& MethodContext::scratch(const std::string& name, size_t bytes) {
-  used_bytes_[name] = bytes;
-  size_t& most = most_bytes_[name];
-  most = std::max(most, bytes);
-  return scratch_.get(name, bytes);
+  Buffer& buffer = scratch_.get(name, bytes);
+  Scratch& used = used_scratch_[name];
+  used = {&buffer, bytes, std::max(used.most, bytes)};
+  return buffer;
 }
 
 size_t MethodContext::scratch_bytes() const {
   size_t total = 0;
-  for (const auto& [name, bytes] : used_bytes_) total += bytes;
+  for (const auto& [name, used] : used_scratch_) total += used.bytes;
   return total;
 }
 

@@ -26,12 +26,23 @@ class KernelLibrary {
   std::map<std::pair<std::string, ShaderDefines>, std::unique_ptr<Kernel>> kernels_;
 };
 
-// Device buffers by name, shared by all cases of a run: what they hold lasts for one frame only. A buffer
-// grows when a larger one is asked for; ask again in every frame instead of keeping the reference. Behind
-// each lies a guard; both hold unwritten_word at first.
-class ScratchPool {
+// Device memory that several users share, one after the other: what it holds lasts for one frame only. It
+// grows when more is asked for; ask again in every frame instead of keeping the handle. Behind it lies a
+// guard; both hold unwritten_word at first.
+class GrowingBuffer {
  public:
   static constexpr size_t kGuardBytes = 16384;
+  // At least `bytes`. `name`: for labels.
+  Buffer& get(Device& device, const std::string& name, size_t bytes);
+  size_t size() const { return buffer_ ? buffer_.size() : 0; }
+
+ private:
+  Buffer buffer_;
+};
+
+// The memory of methods, by the names that they give it, shared by all cases of a run.
+class ScratchPool {
+ public:
   explicit ScratchPool(Device& device) : device_(device) {}
   Buffer& get(const std::string& name, size_t bytes);
   size_t bytes() const;
@@ -39,7 +50,7 @@ class ScratchPool {
 
  private:
   Device& device_;
-  std::map<std::string, Buffer> buffers_;
+  std::map<std::string, GrowingBuffer> buffers_;
 };
 
 class MethodContext {
@@ -59,9 +70,11 @@ class MethodContext {
   size_t kernel_count() const { return used_kernels_.size(); }
   const std::set<std::filesystem::path>& kernel_files() const { return used_files_; }
   size_t scratch_bytes() const;
-  const std::map<std::string, size_t>& scratch_buffers() const { return used_bytes_; }  // bytes by name
-  // The same, of what was asked for under a name the most.
-  const std::map<std::string, size_t>& largest_scratch() const { return most_bytes_; }
+  struct Scratch {
+    Buffer* buffer = nullptr;
+    size_t bytes = 0, most = 0;  // asked for last, and at most
+  };
+  const std::map<std::string, Scratch>& scratch_buffers() const { return used_scratch_; }  // by name
 
  private:
   KernelLibrary& kernels_;
@@ -71,7 +84,7 @@ class MethodContext {
   const Kernel& use(const std::filesystem::path& path, const ShaderDefines& defines);
   std::set<const Kernel*> used_kernels_;
   std::set<std::filesystem::path> used_files_;
-  std::map<std::string, size_t> used_bytes_, most_bytes_;
+  std::map<std::string, Scratch> used_scratch_;
 };
 
 }  // namespace vsglbench

@@ -25,29 +25,26 @@ MomentPyramid::MomentPyramid(MethodContext& context)
       resolve_(context.shared_kernel("resolve.comp")),
       mip_(context.shared_kernel("moments_mip.comp")) {}
 
-std::array<const Buffer*, 5> MomentPyramid::build(Steps& steps, const Field& field) {
+MomentBuffers MomentPyramid::build(Steps& steps, const Field& field) {
   const uint32_t w = field.emitter.width, h = field.emitter.height;
-  std::array<const Buffer*, 5> m{};
-  for (size_t k = 0; k < m.size(); ++k) {
-    m[k] =
+  MomentBuffers moments;
+  for (size_t k = 0; k < moments.buffers.size(); ++k) {
+    moments.buffers[k] =
         &context_.scratch(fmt::format("moments{}.{}", k, half_name(field.half)), pyramid_texels(w, h) * 16);
   }
   Recorder& r = steps.recorder();
   steps.pass("resolve", [&] {
-    const auto& maps = field.maps;
-    r.dispatch(resolve_,
-               {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *m[0], *m[1], *m[2], *m[3], *m[4]},
-               field.emitter, groups_for(w, 8), groups_for(h, 8));
+    r.dispatch(resolve_, {field.maps, moments}, field.emitter, groups_for(w, 8), groups_for(h, 8));
   });
   steps.pass("mipmap", [&] {
     for (uint32_t level = 1; level <= pyramid_top(w, h); ++level) {
       const struct { uint32_t width, height, level; } push{w, h, level};
-      r.dispatch(mip_, {*m[0], *m[1], *m[2], *m[3], *m[4]}, push, groups_for(groups_for(w, 1u << level), 8),
+      r.dispatch(mip_, {moments}, push, groups_for(groups_for(w, 1u << level), 8),
                  groups_for(groups_for(h, 1u << level), 8));
       r.barrier();
     }
   });
-  return m;
+  return moments;
 }
 
 namespace {
@@ -64,7 +61,7 @@ class FilteredSampling : public Method {
   LightKind kind() const override { return LightKind::vsgl; }
 
   void generate(Steps& steps, const Field& field, const LightTarget& target) override {
-    const auto m = pyramid_.build(steps, field);
+    const MomentBuffers moments = pyramid_.build(steps, field);
     steps.pass("sample", [&] {
       const struct {
         uint32_t width, height, count, step;
@@ -75,9 +72,8 @@ class FilteredSampling : public Method {
       Buffer& squares = context_.scratch(fmt::format("squares.{}", half_name(field.half)),
                                          target.count * sizeof(glm::vec4));
       squares_[field.half] = &squares;
-      steps.recorder().dispatch(sample_,
-                                {*field.pdf, *m[0], *m[1], *m[2], *m[3], *m[4], *target.buffer, squares},
-                                push, groups_for(target.count, 64));
+      steps.recorder().dispatch(sample_, {*field.pdf, moments, *target.buffer, squares}, push,
+                                groups_for(target.count, 64));
     });
   }
 

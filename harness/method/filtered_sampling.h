@@ -10,12 +10,19 @@
 
 namespace vsglbench {
 
-// The pyramid of leaf moments of one half: steps `resolve` and `mipmap`. Five vec4 buffers, bound in order by
-// shaders/moments_buffers.glsl.
+// Five vec4 buffers, a pyramid each, as shaders/moments_buffers.glsl numbers them and says what they hold.
+struct MomentBuffers {
+  std::array<const Buffer*, 5> buffers{};
+  std::array<Binding, 5> bindings() const {
+    return {*buffers[0], *buffers[1], *buffers[2], *buffers[3], *buffers[4]};
+  }
+};
+
+// The pyramid of leaf moments of one half: steps `resolve` and `mipmap`.
 class MomentPyramid {
  public:
   explicit MomentPyramid(MethodContext& context);
-  std::array<const Buffer*, 5> build(Steps& steps, const Field& field);
+  MomentBuffers build(Steps& steps, const Field& field);
 
  private:
   MethodContext& context_;

@@ -1,6 +1,7 @@
 // The methods against a double-precision transcription, and the claims of [MFIS16] on made-up PDFs.
 #include <numeric>
 
+#include "base/test_chi_squared.h"
 #include "method/test_field.h"
 
 using namespace vsglbench;
@@ -80,7 +81,7 @@ TEST_P(FilteredSamplingOracle, MatchesDouble) {
   const auto lights = bench.lights<gpu::Vsgl>(half, count, shift);
   std::vector<double> differences;
   for (uint32_t i = 0; i < count; ++i) {
-    const auto rule = method == "fis" ? oracle::Rule::fis : oracle::Rule::mfis;
+    const LightRule rule = find_method(method).light_rule;
     const auto c = oracle::filtered_light(half, pyramid, rule, k, count, lattice_point(i, count, shift));
     differences.push_back(difference(lights[i], c));
   }
@@ -182,9 +183,7 @@ TEST(Generate, WarpedSamplesFollowThePdf) {
     chi2 += (hits[i] - expected) * (hits[i] - expected) / expected;
     ++degrees;
   }
-  // 99.9 % quantile of χ² (Wilson–Hilferty).
-  const double a = 2.0 / (9 * degrees), limit = degrees * std::pow(1 - a + 3.0902 * std::sqrt(a), 3);
-  EXPECT_LT(chi2, limit) << degrees << " degrees of freedom";
+  EXPECT_LT(chi2, chi_squared_limit(degrees, 3.0902)) << degrees << " degrees of freedom";
 }
 
 // Σ Φ/(N p) over VPLs estimates the flux; the texels' own values are passed on unchanged.

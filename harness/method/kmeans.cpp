@@ -3,6 +3,8 @@
 #include <bit>
 #include <map>
 
+#include "gpu/limits.h"
+
 namespace vsglbench {
 namespace {
 
@@ -65,16 +67,15 @@ class KMeans : public Method {
 
   void move(Recorder& r, const Field& field, const ClusterSum::SortedTexels& sorted, const Buffer& centres,
             uint32_t count) {
-    // lavapipe ends a shader's loops after 65535 rounds, without a word: a larger cluster takes several
-    // dispatches.
-    constexpr uint32_t most = 32768;
+    // A cluster that would use up limits::loop_rounds takes several dispatches.
+    constexpr uint32_t most = (limits::loop_rounds + 1) / 2;
     const Buffer& sums = scratch(field, "sums", count * sizeof(glm::vec4));
     const uint32_t rounds = groups_for(sorted.count, most);
     for (uint32_t round = 0; round < rounds; ++round) {
       const struct {
         uint32_t width, texels, count, round, rounds, most;
       } push{field.emitter.width, sorted.count, count, round, rounds, most};
-      r.dispatch(*move_, {*field.maps[0], *sorted.ids, *sorted.texels, *field.pdf, centres, sums}, push,
+      r.dispatch(*move_, {*field.maps.position, *sorted.ids, *sorted.texels, *field.pdf, centres, sums}, push,
                  groups_for(count, 64));
       r.barrier();
     }

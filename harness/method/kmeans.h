@@ -29,12 +29,14 @@ ParameterInfo lloyd_iterations();
 
 // A k-means method: what all of them say of themselves.
 template <int dimensions, NearestCentre::Search search, ClusterSumVariant sum>
-MethodInfo kmeans_info(const std::string& summary) {
+MethodInfo kmeans_info(const std::string& summary,
+                       const std::optional<PublishedCodeSize>& published_code_size = std::nullopt) {
   return {
       .summary = summary,
       .source = "[MFIS16] App. D",
       .parameters = {lloyd_iterations()},
       .flux_bound = 1e-4,  // every texel is in one cluster
+      .published_code_size = published_code_size,
       .create = [](MethodContext& context, const Json& parameters) {
         return make_kmeans(context, {dimensions, search, sum, parameters.at("iterations").get<uint32_t>()});
       }};

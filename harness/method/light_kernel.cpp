@@ -10,7 +10,7 @@ class LightKernel : public Method {
  public:
   LightKernel(MethodContext& context, const std::string& file, LightKind kind,
               const std::vector<float>& parameters)
-      : kernel_(context.kernel(file, {{"LIGHT", kind == LightKind::vsgl ? "Vsgl" : "Vpl"}})), kind_(kind) {
+      : kernel_(context.kernel(file, {{"LIGHT", info_of(kind).record}})), kind_(kind) {
     if (parameters.size() > parameters_.size()) throw std::logic_error("a light kernel takes 4 parameters");
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
   }
@@ -25,10 +25,8 @@ class LightKernel : public Method {
         glm::uvec2 shift;
         std::array<float, 4> parameters;
       } push{field.emitter, target.count, lattice_step(target.count), target.shift, parameters_};
-      const auto& maps = field.maps;
-      steps.recorder().dispatch(
-          kernel_, {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *field.pdf, *target.buffer}, push,
-          groups_for(target.count, 64));
+      steps.recorder().dispatch(kernel_, {field.maps, *field.pdf, *target.buffer}, push,
+                                groups_for(target.count, 64));
     });
   }
 

@@ -9,9 +9,9 @@
 
 namespace vsglbench {
 
-// A method made of one kernel that includes light_kernel.glsl and defines `Vsgl make_light(uint i)` (kind
-// vsgl) or `Vpl make_light(uint i)` (kind vpl or vsl). Its one pass is `sample`. `parameters`: at most 4,
-// which the kernel reads as parameter[0..3].
+// A method made of one kernel that includes light_kernel.glsl and defines `LIGHT make_light(uint i)`, LIGHT
+// being the record of the kind: Vsgl, or Vpl of vpl and vsl. Its one pass is `sample`. `parameters`: at most
+// 4, which the kernel reads as parameter[0..3].
 std::unique_ptr<Method> make_light_kernel(MethodContext& context, const std::string& kernel_file,
                                           LightKind kind, const std::vector<float>& parameters = {});
 

@@ -143,8 +143,8 @@ double texel_power(const oracle::Half& half, LightKind kind) {
   for (uint32_t y = 0; y < half.emitter.height; ++y) {
     for (uint32_t x = 0; x < half.emitter.width; ++x) {
       if (!half.texels[size_t(y) * half.emitter.width + x].surface) continue;
-      total += kind == LightKind::vsgl ? reflected_power(half, x, y)
-                                       : oracle::luminance(oracle::texel_flux(half.emitter, x, y));
+      total += info_of(kind).power_is_incident ? oracle::luminance(oracle::texel_flux(half.emitter, x, y))
+                                               : reflected_power(half, x, y);
     }
   }
   return total;
@@ -173,7 +173,7 @@ Field DeviceHalf::field(Half half, bool with_pdf) const {
   Field field;
   field.half = half;
   field.emitter = emitter_;
-  for (size_t i = 0; i < maps_.size(); ++i) field.maps[i] = &maps_[i];
+  field.maps = {&maps_[0], &maps_[1], &maps_[2], &maps_[3], &maps_[4]};
   field.pdf = with_pdf ? &pdf_ : nullptr;
   return field;
 }

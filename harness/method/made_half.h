@@ -27,8 +27,8 @@ void look_from_eye(oracle::Half& half);
 // The PDF pyramid in single precision, as the harness lays it out (shaders/pyramid.glsl).
 std::vector<float> pdf_pyramid(const oracle::Half& half);
 
-// Σ over texels of what the power of a light of this kind stands for, in double: VSGLs, luminance of the
-// reflected power; VPLs, luminance of the incident flux. W.
+// Σ over texels of what the power of a light of this kind stands for, in double: luminance of the reflected
+// power, or of the incident flux (LightKindInfo). W.
 double texel_power(const oracle::Half& half, LightKind kind);
 
 // A half in device memory. As the rasteriser leaves it, a texel without a surface is all zero.

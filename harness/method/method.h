@@ -7,40 +7,42 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/json.h"
 #include "gpu/recorder.h"
 #include "method/context.h"
+#include "method/light_kind.h"
 #include "shaders/types.h"
 
 namespace vsglbench {
 
-enum class Half { gbuffer, rsm };
-// vsl: Vpl records with a radius, virtual spherical lights.
-enum class LightKind { vsgl, vpl, vsl };
-
-inline const char* half_name(Half half) { return half == Half::gbuffer ? "gbuffer" : "rsm"; }
-inline size_t light_stride(LightKind kind) {
-  return kind == LightKind::vsgl ? sizeof(gpu::Vsgl) : sizeof(gpu::Vpl);
-}
+// The deferred targets of one half, RGBA32F.
+struct FieldMaps {
+  const DeviceImage* position = nullptr;  // w = 1 where there is a surface
+  const DeviceImage* normal = nullptr;    // of shading; w: ndf
+  const DeviceImage* geometric_normal = nullptr;
+  const DeviceImage* diffuse = nullptr;  // Rd
+  const DeviceImage* f0 = nullptr;       // F0
+  // As shaders/field_maps.glsl numbers them.
+  std::array<Binding, 5> bindings() const { return {*position, *normal, *geometric_normal, *diffuse, *f0}; }
+};
 
 // What a method reads: the deferred targets of one half, who emits into it, and the PDF.
 struct Field {
   Half half = Half::rsm;
   gpu::Emitter emitter{};  // width and height are the half's, in texels
-  // RGBA32F: position + coverage, shading normal + ndf, geometric normal, Rd, F0 (shaders/field_maps.glsl).
-  std::array<const DeviceImage*, 5> maps{};
+  FieldMaps maps;
   // Pyramid of float means (shaders/pyramid.glsl) of any positive multiple of the PDF; level 0 first. Null
   // where the method said that it uses none.
   const Buffer* pdf = nullptr;
   uint64_t texels() const { return uint64_t(emitter.width) * emitter.height; }
 };
 
-// Where the lights go: `count` records of Vsgl or Vpl. A light of no power has power = 0.
+// Where the lights go: `count` records of the kind that the method makes. A light of no power has power = 0.
 struct LightTarget {
   const Buffer* buffer = nullptr;
   uint32_t count = 0;
@@ -51,25 +53,23 @@ struct LightTarget {
 // within another, throw Error(plugin).
 class Steps {
  public:
-  Steps(Recorder& recorder, Half half)
-      : recorder_(recorder), prefix_(std::string("generate.") + half_name(half)) {}
+  Steps(Recorder& recorder, Half half) : recorder_(recorder), half_(half) {}
   template <class Record>
   void pass(const std::string& step, const Record& record) {
     check(step);
-    // Within the pass there is no prefix to name another with.
-    const Within within{prefix_, std::exchange(prefix_, std::string())};
-    recorder_.pass(within.kept + "." + step, record);
+    const Within within(in_pass_);
+    recorder_.pass({PassStage::generate, half_, step}, record);
   }
   Recorder& recorder() { return recorder_; }
 
  private:
   struct Within {
-    std::string& prefix;
-    std::string kept;
-    ~Within() { prefix = kept; }
+    explicit Within(bool& flag) : in_pass(flag) { in_pass = true; }
+    ~Within() { in_pass = false; }
+    bool& in_pass;
   };
   void check(const std::string& step) const {
-    if (prefix_.empty()) throw fail(ErrorKind::plugin, "pass '{}': passes don't nest", step.substr(0, 64));
+    if (in_pass_) throw fail(ErrorKind::plugin, "pass '{}': passes don't nest", step.substr(0, 64));
     static constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-";
     if (step.empty() || step.size() > 64 || step.find_first_not_of(kAllowed) != std::string::npos) {
       throw fail(ErrorKind::plugin, "pass '{}': use lower-case letters, digits, '_' and '-', at most 64",
@@ -77,7 +77,8 @@ class Steps {
     }
   }
   Recorder& recorder_;
-  std::string prefix_;
+  Half half_;
+  bool in_pass_ = false;
 };
 
 // Which texels of a half its lights stand for, for pictures and statistics; null where that is not defined.
@@ -111,6 +112,21 @@ struct ParameterInfo {
   std::vector<std::string> choices;  // for strings
 };
 
+// How light i comes from point i of the lattice, where that is as a paper has it: lights of a stated rule are
+// recomputed in double (stability/light_check.h). `texel`: the texel itself, with its share of the flux;
+// the others are filtered importance sampling.
+enum class LightRule {
+  unstated,
+  texel,              // flux/(N p) [VSGL14 §2]
+  pdf_at_centre,      // the kernel's size from the PDF at its centre [MFIS16 Eq. 1, 4]
+  equal_probability,  // kernels of equal probability [MFIS16 Eq. 3, 5, Alg. 1]
+};
+
+// C++ and HLSL, of one half, as [MFIS16] Tab. 3 prints them.
+struct PublishedCodeSize {
+  int shaders, dispatches, lines;
+};
+
 struct MethodInfo {
   std::string summary;            // one line
   std::string source;             // paper, section
@@ -128,6 +144,11 @@ struct MethodInfo {
   // The same where the PDF changes much within a few texels, as a view's does; below 0: flux_bound holds
   // there too. What is drawn may not carry more than this on such a PDF: a run refuses it (run/flux_check.h).
   double uneven_flux_bound = -1;
+  // It serves as the maker of importance by lights of this kind, with default parameters [VSGL14 §3]
+  // (frame/importance.h); of several that say so, registry.h says which does.
+  std::optional<LightKind> makes_importance;
+  LightRule light_rule = LightRule::unstated;
+  std::optional<PublishedCodeSize> published_code_size;
   double worst_flux_bound() const { return uneven_flux_bound < flux_bound ? flux_bound : uneven_flux_bound; }
   std::unique_ptr<Method> (*create)(MethodContext& context, const Json& parameters) = nullptr;
 

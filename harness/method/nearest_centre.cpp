@@ -28,7 +28,7 @@ void CentreSampler::record(Recorder& r, const Field& field, glm::uvec2 shift, co
     uint32_t width, height, count, step;
     glm::uvec2 shift;
   } push{field.emitter.width, field.emitter.height, count, lattice_step(count), shift};
-  r.dispatch(kernel_, {*field.maps[0], *field.pdf, centres}, push, groups_for(count, 64));
+  r.dispatch(kernel_, {*field.maps.position, *field.pdf, centres}, push, groups_for(count, 64));
   r.barrier();
 }
 
@@ -42,7 +42,7 @@ void NearestCentre::record(Recorder& r, const Field& field, const Buffer& centre
   tree_.build(r, centres, count);
   const glm::uvec2 size(field.emitter.width, field.emitter.height);
   const struct { uint32_t width, height, count; } push{size.x, size.y, count};
-  r.dispatch(search_, {*field.maps[0], tree_.nodes(), tree_.centres(), ids}, push,
+  r.dispatch(search_, {*field.maps.position, tree_.nodes(), tree_.centres(), ids}, push,
              groups_for(size.x, 8 * block_.x), groups_for(size.y, 8 * block_.y));
   r.barrier();
 }

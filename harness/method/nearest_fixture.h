@@ -31,7 +31,7 @@ class NearestBench {
     map_ = DeviceImage(device_, "position", VK_FORMAT_R32G32B32A32_SFLOAT, size.x, size.y,
                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     map_.upload(positions.data(), positions.size() * sizeof(glm::vec4));
-    field_.maps[0] = &map_;
+    field_.maps.position = &map_;
   }
 
   Ids ids(const Points& centres, int dimensions, Search search) {
@@ -51,7 +51,7 @@ class NearestBench {
       in[i] = Buffer(device_, "centres", centres.size() * sizeof(glm::vec4));
       in[i].upload(std::span<const glm::vec4>(centres));
       out[i] = Buffer(device_, "ids", field_.texels() * 4);
-      recorder_.pass("assign", [&] {
+      recorder_.pass({.step = "assign"}, [&] {
         nearest.record(recorder_, field_, in[i], static_cast<uint32_t>(centres.size()), out[i]);
       });
     }
@@ -80,7 +80,7 @@ class NearestBench {
     NearestCentre nearest(context_, dimensions, search);
     Buffer out(device_, "ids", field_.texels() * 4);
     recorder_.begin();
-    recorder_.pass("assign", [&] {
+    recorder_.pass({.step = "assign"}, [&] {
       before();
       nearest.record(recorder_, field_, centres, count, out);
     });

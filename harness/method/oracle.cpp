@@ -202,13 +202,13 @@ glm::uvec2 Pyramid::warp(double ux, double uy) const {
   return t;
 }
 
-Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count,
+Vsgl filtered_light(const Half& half, const Pyramid& pyramid, LightRule rule, double k, uint32_t count,
                     glm::uvec2 fixed) {
   const glm::dvec2 u = unit_interval(fixed);
   const glm::uvec2 t = pyramid.warp(u.x, u.y);
   const double x = t.x + 0.5, y = t.y + 0.5, m = double(half.emitter.width) * half.emitter.height;
   double level = 0, share = 0;
-  if (rule == Rule::fis) {
+  if (rule == LightRule::pdf_at_centre) {
     const double p = pyramid.pdf(x, y, 0);
     level = std::max(0.0, std::log2(std::min(k / (count * p), 1.0) * m) / 2);
     share = 1 / std::max(count * p, 1.0);

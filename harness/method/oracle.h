@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "method/method.h"
 #include "shaders/types.h"
 
 namespace vsglbench::oracle {
@@ -62,10 +63,9 @@ class Pyramid {
   std::vector<Level> levels_;
 };
 
-enum class Rule { fis, mfis };
-// Light `i` of `count` by filtered importance sampling [MFIS16 Eq. 1–5, Alg. 1]; `fixed` is its lattice point
-// in 32-bit fixed point.
-Vsgl filtered_light(const Half& half, const Pyramid& pyramid, Rule rule, double k, uint32_t count,
+// Light `i` of `count` by filtered importance sampling [MFIS16 Eq. 1–5, Alg. 1], by one of LightRule's two
+// rules for it; `fixed` is its lattice point in 32-bit fixed point.
+Vsgl filtered_light(const Half& half, const Pyramid& pyramid, LightRule rule, double k, uint32_t count,
                     glm::uvec2 fixed);
 
 double luminance(const glm::dvec3& c);

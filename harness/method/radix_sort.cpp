@@ -5,14 +5,15 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "gpu/limits.h"
 
 namespace vsglbench {
 namespace {
 
 constexpr uint32_t kTileKeys = 2048;  // as in shaders/radix_tile.glsl
-// lavapipe ends an invocation's loops after 65535 rounds, without a word; a run is gone through 4 keys a
-// round.
+// Keys of a run, of which an invocation takes 4 a round.
 constexpr uint32_t kMostRun = 1u << 17;
+static_assert(kMostRun / 4 < limits::loop_rounds);
 
 void check(RadixSort::Pairs input, RadixSort::Pairs scratch, uint32_t count, uint32_t bits,
            bool needs_input) {
@@ -46,7 +47,7 @@ RadixSort::RadixSort(MethodContext& context, RadixVariant variant)
   const bool serial = variant == RadixVariant::serial;
   const ShaderDefines defines = serial ? ShaderDefines{{"LANES", std::to_string(lanes_)}} : ShaderDefines{};
   ShaderDefines index_defines = defines;
-  index_defines["INDEX_PAYLOAD"] = "1";
+  index_defines.emplace("INDEX_PAYLOAD", "1");
   const std::string prefix = serial ? "radix_serial_" : "radix_tile_";
   count_ = &context.shared_kernel(prefix + "count.comp", defines);
   totals_ = &context.shared_kernel(prefix + (serial ? "totals.comp" : "rows.comp"), defines);

@@ -82,7 +82,7 @@ class SortBench {
     if (count > 0 && given) in_values.upload(std::span<const uint32_t>(values));
     recorder_.begin();
     RadixSort::Pairs sorted;
-    recorder_.pass("sort", [&] {
+    recorder_.pass({.step = "sort"}, [&] {
       sorted =
           sort_.record(recorder_, {&in_keys, &in_values}, {&out_keys, &out_values}, count, bits, payload);
     });
@@ -154,7 +154,7 @@ TEST_P(RadixSortTest, TwoSortsInOneSubmission) {
   b[4].upload(std::span<const uint32_t>(large));
   RadixSort::Pairs first, second;
   bench.recorder().begin();
-  bench.recorder().pass("sorts", [&] {
+  bench.recorder().pass({.step = "sorts"}, [&] {
     const auto index = RadixSort::Payload::index;
     first = bench.sort().record(bench.recorder(), {&b[0], &b[1]}, {&b[2], &b[3]}, 300, 32, index);
     second = bench.sort().record(bench.recorder(), {&b[4], &b[5]}, {&b[6], &b[7]}, 70000, 32, index);

@@ -7,14 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <optional>
 
-#include "base/child.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/nearest.h"
+#include "base/supervise.h"
 #include "method/kept_kernels.h"
 #include "method/plugin.h"
 
@@ -92,6 +91,8 @@ MethodInfo refuse(const fs::path& library, const std::string& why) {
 // A default outside its own range, or one name twice, is the plugin's mistake: better told now than in a run.
 std::string mistake_in(const MethodInfo& info) {
   if (!info.create) return "has no `create`";
+  if (info.makes_importance && !is_light_kind(*info.makes_importance))
+    return "makes importance by lights of no kind";
   for (const double bound : {info.flux_bound, info.uneven_flux_bound})
     if (!std::isfinite(bound)) return fmt::format("has a flux_bound of {}", bound);
   for (const auto& p : info.parameters) {
@@ -144,60 +145,23 @@ MethodInfo open_plugin(const fs::path& library) {
   return info;
 }
 
-MethodInfo from_json(const Json& j, const fs::path& library) {
-  MethodInfo info = named_after(library);
-  info.summary = j.at("summary");
-  info.source = j.at("source");
-  info.takes_light_count = j.at("takes_light_count");
-  info.light_count = j.at("light_count");
-  info.makes_vpls = j.at("makes_vpls");
-  info.device_features = j.at("device_features");
-  info.flux_bound = j.at("flux_bound");
-  info.uneven_flux_bound = j.at("uneven_flux_bound");
-  info.refused = j.value("refused", "");
-  for (const auto& p : j.at("parameters")) {
-    info.parameters.push_back({p.at("name"), p.at("default"), p.at("description"), p.value("minimum", 0.0),
-                               p.value("maximum", 0.0), p.value("choices", std::vector<std::string>())});
-  }
-  return info;
-}
-
-// The answer of the `index`th library; empty when it is that of another, or none.
-std::optional<MethodInfo> read_answer(const Json& answer, size_t index, const fs::path& library) {
-  try {
-    if (answer.at("index") != index) return std::nullopt;
-    return from_json(answer.at("method"), library);
-  } catch (const Json::exception&) {
-    return std::nullopt;
-  }
-}
-
-// Asks each in a child process; one that takes the child down is refused, and a new child asks the rest.
+// Asks each in a process of its own.
 std::vector<MethodInfo> inspect(const std::vector<fs::path>& libraries) {
   std::vector<MethodInfo> found;
-  while (found.size() < libraries.size()) {
-    const size_t first = found.size();
-    Child child([&](const ToParent& parent) {
-      for (size_t i = first; i < libraries.size(); ++i)
-        parent.send({{"index", i}, {"method", to_json(open_plugin(libraries[i]))}});
-    });
-    std::string how = "ended the process";
-    while (found.size() < libraries.size()) {
-      const auto message = child.receive(kLoadLimit_s);
-      if (!message) {
-        if (!child.how_it_ended().empty()) how = child.how_it_ended();
-        break;
-      }
-      auto answer = read_answer(*message, found.size(), libraries[found.size()]);
-      if (!answer) {
-        how = "sent what is no answer";
-        break;
-      }
-      found.push_back(std::move(*answer));
-    }
-    if (found.size() == libraries.size()) break;
-    found.push_back(refuse(libraries[found.size()], how + " while it was loaded"));
-  }
+  supervise<MethodInfo>({.name = "plugins",
+                         .jobs = libraries.size(),
+                         .work =
+                             [&](const Worker<MethodInfo>& worker, const std::vector<size_t>& left) {
+                               for (const size_t i : left) {
+                                 worker.now({i, "being loaded", kLoadLimit_s});
+                                 worker.done(i, open_plugin(libraries[i]));
+                               }
+                             },
+                         .told = [&](const MethodInfo& info) { found.push_back(info); },
+                         .lost =
+                             [&](size_t i, const End& end) {
+                               found.push_back(refuse(libraries[i], end.how + " while it was loaded"));
+                             }});
   return found;
 }
 
@@ -265,6 +229,26 @@ const MethodInfo& find_method(const std::string& name) {
   throw fail(ErrorKind::config, "no method '{}'{}", name, suggestion(name, known));
 }
 
+// The programme's own folder is the last that is searched: a copy of its method under another name, in a
+// folder of one's own, does not take its place unasked.
+const MethodInfo& find_importance_maker(LightKind kind) {
+  const auto serves = [&](const MethodInfo* method) {
+    return method->refused.empty() && method->makes_importance == kind;
+  };
+  const fs::path own = plugin_folders().back();
+  const auto is_own = [&](const MethodInfo* method) {
+    return serves(method) && method->library.parent_path() == fs::absolute(own);
+  };
+  const auto& all = all_methods();
+  auto found = std::ranges::find_if(all, is_own);
+  if (found == all.end()) found = std::ranges::find_if(all, serves);
+  if (found != all.end()) return **found;
+  throw fail(ErrorKind::config,
+             "no method says that it makes importance by lights of kind {}; build methods/, or use "
+             "importance own",
+             info_of(kind).name);
+}
+
 MethodInfo inspect_plugin(const fs::path& library) {
   std::error_code ec;
   if (const std::string name = fs::absolute(library).string(); !is_text(name)) {
@@ -299,6 +283,36 @@ std::string plugin_hash(const MethodInfo& method) {
   return hasher.hex();
 }
 
+namespace {
+
+// Json::other_error where there is none.
+LightKind kind_named(const std::string& name) {
+  for (const LightKind kind : light_kinds()) {
+    if (info_of(kind).name == name) return kind;
+  }
+  throw Json::other_error::create(501, "no kind of light is called " + name, nullptr);
+}
+
+}  // namespace
+
+void from_json(const Json& j, MethodInfo* info) {
+  *info = named_after(j.at("library").get<std::string>());
+  info->summary = j.at("summary");
+  info->source = j.at("source");
+  info->takes_light_count = j.at("takes_light_count");
+  info->light_count = j.at("light_count");
+  info->makes_vpls = j.at("makes_vpls");
+  info->device_features = j.at("device_features");
+  info->flux_bound = j.at("flux_bound");
+  info->uneven_flux_bound = j.at("uneven_flux_bound");
+  if (!j.at("makes_importance").is_null()) info->makes_importance = kind_named(j.at("makes_importance"));
+  info->refused = j.value("refused", "");
+  for (const auto& p : j.at("parameters")) {
+    info->parameters.push_back({p.at("name"), p.at("default"), p.at("description"), p.value("minimum", 0.0),
+                                p.value("maximum", 0.0), p.value("choices", std::vector<std::string>())});
+  }
+}
+
 Json to_json(const MethodInfo& method) {
   Json parameters = Json::array();
   for (const auto& p : method.parameters) {
@@ -311,17 +325,19 @@ Json to_json(const MethodInfo& method) {
     }
     parameters.push_back(std::move(entry));
   }
-  Json j = {{"name", method.name},
-            {"summary", method.summary},
-            {"source", method.source},
-            {"takes_light_count", method.takes_light_count},
-            {"light_count", method.light_count},
-            {"makes_vpls", method.makes_vpls},
-            {"parameters", std::move(parameters)},
-            {"device_features", method.device_features},
-            {"flux_bound", method.flux_bound},
-            {"uneven_flux_bound", method.worst_flux_bound()},
-            {"library", method.library.string()}};
+  Json j = {
+      {"name", method.name},
+      {"summary", method.summary},
+      {"source", method.source},
+      {"takes_light_count", method.takes_light_count},
+      {"light_count", method.light_count},
+      {"makes_vpls", method.makes_vpls},
+      {"parameters", std::move(parameters)},
+      {"device_features", method.device_features},
+      {"flux_bound", method.flux_bound},
+      {"uneven_flux_bound", method.worst_flux_bound()},
+      {"makes_importance", method.makes_importance ? Json(info_of(*method.makes_importance).name) : Json()},
+      {"library", method.library.string()}};
   if (!method.refused.empty()) j["refused"] = method.refused;
   return j;
 }

@@ -24,6 +24,9 @@ std::vector<std::filesystem::path> plugin_folders();
 const std::vector<const MethodInfo*>& all_methods();
 // Throws Error(config) naming the nearest method. A refused one is returned.
 const MethodInfo& find_method(const std::string& name);
+// The method that makes importance by lights of this kind: of those that say so the programme's own, else the
+// first. Throws Error(config) where there is none.
+const MethodInfo& find_importance_maker(LightKind kind);
 // One plugin file, as all_methods() would hold it.
 MethodInfo inspect_plugin(const std::filesystem::path& library);
 
@@ -37,5 +40,6 @@ std::string plugin_hash(const MethodInfo& method);
 
 // What `list methods --json` shows, and what the inspecting process sends: all but `create`.
 Json to_json(const MethodInfo& method);
+void from_json(const Json& json, MethodInfo* method);
 
 }  // namespace vsglbench

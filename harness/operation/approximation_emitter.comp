@@ -4,7 +4,7 @@
 layout(local_size_x = 1) in;
 #include "field_maps.glsl"
 #include "field.glsl"
-layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = AFTER_MAPS, scalar) writeonly buffer Lights { Vsgl lights[]; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {

@@ -8,36 +8,31 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <sstream>
 
+#include "base/csv.h"
 #include "base/file.h"
 #include "operation/approximations.h"
 
 namespace vsglbench {
 
-// oracle;case;error at each view angle
+// oracle,case,error at each view angle
 inline std::string to_csv(const std::string& oracle, const std::vector<ErrorRow>& rows) {
   std::string text;
   for (const ErrorRow& row : rows) {
-    text += oracle + ";" + row.name;
-    for (const double e : row.error) text += fmt::format(";{:.4g}", e);
-    text += "\n";
+    std::vector<std::string> cells = {oracle, row.name};
+    for (const double e : row.error) cells.push_back(fmt::format("{:.4g}", e));
+    text += csv_row(cells);
   }
   return text;
 }
 
 // Errors by case.
 inline std::map<std::string, std::vector<double>> tabled_errors(const std::string& oracle) {
-  std::istringstream text(
-      read_text(std::filesystem::path(VSGLBENCH_SOURCE_DIR) / "harness/operation/approximations.csv"));
   std::map<std::string, std::vector<double>> table;
-  for (std::string line; std::getline(text, line);) {
-    std::istringstream cells(line);
-    std::string name, cell;
-    std::getline(cells, cell, ';');
-    if (cell != oracle) continue;
-    std::getline(cells, name, ';');
-    while (std::getline(cells, cell, ';')) table[name].push_back(std::stod(cell));
+  for (const auto& row : parse_csv(
+           read_text(std::filesystem::path(VSGLBENCH_SOURCE_DIR) / "harness/operation/approximations.csv"))) {
+    if (row.at(0) != oracle) continue;
+    for (size_t k = 2; k < row.size(); ++k) table[row.at(1)].push_back(std::stod(row[k]));
   }
   return table;
 }

@@ -81,8 +81,8 @@ oracle::Half texel_set(const Material& material, const dvec3& incident, double s
                   .extent = {4e-3f, 4e-3f},
                   .power = glm::vec3(1)};
   for (uint32_t i = 0; i < kSize * kSize; ++i) {
-    const dvec3 place((i % kSize) / 3.5 - 1, i / kSize / 3.5 - 1,
-                      0);  // uniform in [-1,1]², of deviation 0.65
+    const uint32_t column = i % kSize, row = i / kSize;
+    const dvec3 place(column / 3.5 - 1, row / 3.5 - 1, 0);  // uniform in [-1,1]², of deviation 0.65
     oracle::Texel t;
     t.position = glm::vec3(4e-3 * (place.x * away_at(0.0) + place.y * across()));
     t.normal = t.geometric_normal =

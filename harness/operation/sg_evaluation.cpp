@@ -161,7 +161,9 @@ std::vector<float> SgEvaluator::on_device(std::span<const float> arguments) {
   Buffer out(recorder_.device(), "values", results * sizeof(float));
   in.upload(arguments);
   recorder_.begin();
-  recorder_.pass("sg", [&] { recorder_.dispatch(kernel_, {in, out}, rows, groups_for(rows, kGroup)); });
+  recorder_.pass({.step = "sg"}, [&] {
+    recorder_.dispatch(kernel_, {in, out}, rows, groups_for(rows, kGroup));
+  });
   recorder_.submit_and_wait();
   return out.download<float>(results);
 }

@@ -81,7 +81,7 @@ std::vector<float> shade_rows(const Kernel& pixel, const std::vector<float>& row
   in.upload(std::span<const float>(rows));
   Recorder recorder(device());
   recorder.begin();
-  recorder.pass("pixel", [&] { recorder.dispatch(pixel, {in, out}, count, 1); });
+  recorder.pass({.step = "pixel"}, [&] { recorder.dispatch(pixel, {in, out}, count, 1); });
   recorder.submit_and_wait();
   return out.download<float>(3 * count);
 }

@@ -33,7 +33,7 @@ std::vector<glm::vec4> ShadingProbe::shade(const std::vector<ShadingPair>& pairs
                texels = upload(device, pairs, &ShadingPair::texel);
   const Buffer values(device, "values", size_t{count} * runs * sizeof(glm::vec4));
   recorder_.begin();
-  recorder_.pass("probe", [&] {
+  recorder_.pass({.step = "probe"}, [&] {
     recorder_.dispatch(kernel, {surfaces, lights, texels, values}, Push{count, runs, alpha},
                        groups_for(count * runs, 64));
   });
@@ -46,11 +46,10 @@ gpu::Vsgl ShadingProbe::light_of(const oracle::Half& half) {
   const DeviceHalf on_device(recorder_.device(), half);
   const Field field = on_device.field(Half::rsm, false);
   const Buffer light(recorder_.device(), "light", sizeof(gpu::Vsgl));
-  std::vector<Binding> bound;
-  for (const DeviceImage* map : field.maps) bound.emplace_back(*map);
-  bound.emplace_back(light);
   recorder_.begin();
-  recorder_.pass("emitter", [&] { recorder_.dispatch(kernel, bound, half.emitter, 1); });
+  recorder_.pass({.step = "emitter"}, [&] {
+    recorder_.dispatch(kernel, {field.maps, light}, half.emitter, 1);
+  });
   recorder_.submit_and_wait();
   return light.download<gpu::Vsgl>(1)[0];
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/test_chi_squared.h"
 #include "reference/random.h"
 
 namespace vsglbench {
@@ -181,7 +182,7 @@ void expect_samples_follow_pdf(const Surface& s, const glm::vec3& v, const std::
   }
   EXPECT_NEAR(total, 1 - nothing, 0.01) << name;
   EXPECT_GT(cells, 10) << name;
-  EXPECT_LT(chi2, cells + 5 * std::sqrt(2.0 * cells)) << name << ", cells " << cells;
+  EXPECT_LT(chi2, chi_squared_limit(cells, 4)) << name << ", cells " << cells;
 }
 
 TEST(Brdf, SamplesFollowThePdfAndItIntegratesToOne) {

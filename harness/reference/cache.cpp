@@ -78,8 +78,9 @@ ReferenceResult parse(const std::string& hash) {
   return r;
 }
 
-// Nothing when there is no such file or it is not to be trusted.
-std::optional<ReferenceResult> load(const std::string& hash, const ReferenceParameters& p) {
+}  // namespace
+
+std::optional<ReferenceResult> cached_reference(const std::string& hash, const ReferenceParameters& p) {
   std::error_code ignored;
   if (!std::filesystem::exists(cache_file(hash, ".json"), ignored)) return std::nullopt;
   try {
@@ -93,11 +94,9 @@ std::optional<ReferenceResult> load(const std::string& hash, const ReferencePara
   return std::nullopt;
 }
 
-}  // namespace
-
 ReferenceResult load_or_compute(const Scene& scene, const ReferenceParameters& parameters, bool* from_cache) {
   const std::string hash = reference_hash(scene, parameters);
-  auto cached = load(hash, parameters);
+  auto cached = cached_reference(hash, parameters);
   if (from_cache) *from_cache = cached.has_value();
   if (cached) return *std::move(cached);
   ReferenceResult fresh = compute_reference(scene, parameters);

@@ -1,5 +1,7 @@
 #include "report/case_names.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -29,6 +31,10 @@ bool holds(const std::vector<std::string>& list, const std::string& item) {
 }
 
 }  // namespace
+
+bool matches_glob(const std::string& id, const std::string& glob) {
+  return ::fnmatch(glob.c_str(), id.c_str(), 0) == 0;
+}
 
 CaseNames::CaseNames(const std::vector<const CaseResult*>& cases) : known_({"scene", "method"}) {
   if (!cases.empty()) shared_ = parts_of(*cases.front()).settings;

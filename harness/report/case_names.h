@@ -8,6 +8,9 @@
 
 namespace vsglbench {
 
+// Whether a case's id is what `--only` and `--case` ask for: a glob, in which '*' takes '/' too.
+bool matches_glob(const std::string& id, const std::string& glob);
+
 // Short names for ids "SCENE/METHOD/KEY=VALUE,KEY=VALUE": a key that has one value in all `cases` is left out
 // of their names.
 class CaseNames {

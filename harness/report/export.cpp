@@ -45,8 +45,11 @@ Json bencher(const Report& report) {
     for (const Measured& m : measured(c)) {
       const bool time = std::string(m.unit) == "ms";
       const double scale = time ? 1e6 : 1;  // ns
-      const std::string name = !time ? m.name : std::string(m.name) == "method" ? "latency" : std::string(m.name) + "-latency";
-      measures[name] = {{"value", scale * m.value}, {"lower_value", scale * m.lower}, {"upper_value", scale * m.upper}};
+      const std::string name = !time                             ? m.name
+                               : std::string(m.name) == "method" ? "latency"
+                                                                 : std::string(m.name) + "-latency";
+      measures[name] = {
+          {"value", scale * m.value}, {"lower_value", scale * m.lower}, {"upper_value", scale * m.upper}};
     }
     out[c.id] = measures;
   }
@@ -117,7 +120,8 @@ Json export_report(const Report& report, const std::string& format) {
     if (format == f.name) return f.write(report);
   }
   const auto names = export_formats();
-  throw fail(ErrorKind::usage, "no format is named '{}'; did you mean '{}'?", format, nearest_name(format, names));
+  throw fail(ErrorKind::usage, "no format is named '{}'; did you mean '{}'?", format,
+             nearest_name(format, names));
 }
 
 }  // namespace vsglbench

@@ -1,4 +1,5 @@
-// A report in the formats of other people's dashboards. Finite numbers only: what a case does not have is left out.
+// A report in the formats of other people's dashboards. Finite numbers only: what a case does not have is
+// left out.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace vsglbench {
 
-//   bencher           Bencher Metric Format: benchmark → measure → value, lower_value, upper_value; times in ns, as its
+//   bencher           Bencher Metric Format: benchmark → measure → value, lower_value, upper_value; times in
+//   ns, as its
 //                     `latency` is, errors in their own units
 //   github-action     github-action-benchmark's customSmallerIsBetter: name, unit, value, range
 //   google-benchmark  the shape that Google Benchmark's --benchmark_format=json has, one iteration run a case

@@ -30,7 +30,8 @@ const std::vector<std::string>& time_columns() {
 
 std::optional<Summary> time_of(const CaseResult& c, const std::string& column) {
   if (column == "generate") return c.generate ? std::optional(c.generate->total) : std::nullopt;
-  if (column.starts_with("generate.")) return sum_of_passes(c.passes, {column + "."});
+  if (column == "generate.gbuffer") return generate_time(c.passes, Half::gbuffer);
+  if (column == "generate.rsm") return generate_time(c.passes, Half::rsm);
   if (!c.frame) return std::nullopt;
   if (column == "method") return c.frame->method;
   if (column == "visibility") return c.frame->host_visibility;

@@ -16,14 +16,14 @@ CaseResult measured(double gbuffer_half, double rsm_half, double shade, double r
   c.id = "cornell/mfis";
   c.scene = "cornell";
   const auto steady = [](double ms) { return summarize(std::vector<double>(8, ms)); };
-  c.passes = {{"gbuffer", steady(raster)},
-              {"rsm", steady(raster)},
-              {"generate.gbuffer.sample", steady(gbuffer_half)},
-              {"generate.rsm.sample", steady(rsm_half)},
-              {"shade", steady(shade)}};
+  c.passes = {{parse_pass_name("gbuffer"), steady(raster)},
+              {parse_pass_name("rsm"), steady(raster)},
+              {parse_pass_name("generate.gbuffer.sample"), steady(gbuffer_half)},
+              {parse_pass_name("generate.rsm.sample"), steady(rsm_half)},
+              {parse_pass_name("shade"), steady(shade)}};
   const double frame = gbuffer_half + rsm_half + shade + 2 * raster;
   c.frame = frame_timing(std::vector<double>(8, frame), c.passes);
-  c.generate.emplace().total = *sum_of_passes(c.passes, {"generate."});
+  c.generate.emplace().total = *generate_time(c.passes);
   return c;
 }
 

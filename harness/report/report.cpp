@@ -9,22 +9,15 @@
 namespace vsglbench {
 namespace {
 
-bool starts_with_any(const std::string& name, const std::vector<std::string>& prefixes) {
-  for (const auto& p : prefixes) {
-    if (name == p || (p.ends_with('.') && name.starts_with(p))) return true;
-  }
-  return false;
-}
-
 template <class Wanted>
 std::optional<Summary> sum_of(const std::vector<PassTiming>& passes, const Wanted& wanted) {
   std::vector<double> sums;
   bool any = false;
   for (const PassTiming& pass : passes) {
-    if (!wanted(pass.name)) continue;
+    if (!wanted(pass.pass)) continue;
     if (any && pass.ms.samples.size() != sums.size()) {
       throw std::invalid_argument(
-          fmt::format("pass {} has {} samples, not {}", pass.name, pass.ms.samples.size(), sums.size()));
+          fmt::format("pass {} has {} samples, not {}", pass.pass, pass.ms.samples.size(), sums.size()));
     }
     sums.resize(pass.ms.samples.size(), 0);
     for (size_t i = 0; i < sums.size(); ++i) sums[i] += pass.ms.samples[i];
@@ -62,20 +55,21 @@ FluxResult flux_over_seeds(const std::vector<double>& ratios) {
   return {estimate.mean, estimate.known ? std::optional(estimate.ci95) : std::nullopt, *least, *most};
 }
 
-std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
-                                     const std::vector<std::string>& prefixes) {
-  return sum_of(passes, [&](const std::string& name) { return starts_with_any(name, prefixes); });
+std::optional<Summary> generate_time(const std::vector<PassTiming>& passes, std::optional<Half> half) {
+  return sum_of(passes, [&](const PassId& pass) {
+    return pass.stage == PassStage::generate && (!half || pass.half == half);
+  });
 }
 
 std::optional<Summary> method_time(const std::vector<PassTiming>& passes) {
-  return sum_of(passes, [](const std::string& name) { return name != "gbuffer" && name != "rsm"; });
+  return sum_of(passes, [](const PassId& pass) { return pass.stage != PassStage::draw; });
 }
 
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes) {
   std::vector<double> sum(span_ms.size(), 0), rest = span_ms;
   for (const PassTiming& pass : passes) {
     if (pass.ms.samples.size() != span_ms.size()) {
-      throw std::invalid_argument(fmt::format("pass {} has {} samples but there were {} frames", pass.name,
+      throw std::invalid_argument(fmt::format("pass {} has {} samples but there were {} frames", pass.pass,
                                               pass.ms.samples.size(), span_ms.size()));
     }
     for (size_t i = 0; i < sum.size(); ++i) {

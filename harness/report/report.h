@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/json.h"
+#include "gpu/pass_id.h"
 #include "image/metrics.h"
 #include "measure/statistics.h"
 #include "measure/stopping.h"
@@ -68,7 +70,7 @@ struct Effect {
 };
 
 struct PassTiming {
-  std::string name;  // dotted: "generate.rsm.sort"
+  PassId pass;  // by its dotted name in the file: "generate.rsm.sort"
   Summary ms;
 };
 
@@ -197,11 +199,8 @@ enum class Status { ok, failed, skipped };
 std::string_view name(Status status);
 
 struct CaseError {
-  // kind: "case_failed", "config", "scene", "plugin", "not_finite", "output", "asset_missing", "internal";
-  // "refused" for lights that can't be: not written, of power from nothing or beyond what the method states,
-  // written past their end; "crashed", "timeout" or "device_lost" for what ended the case's process; "device"
-  // when none can be opened
-  std::string kind, message;
+  ErrorKind kind = ErrorKind::case_failed;
+  std::string message;
 };
 
 // What of a frame is rendered and timed: all of it, or only the two generate passes, on halves and PDFs made
@@ -264,10 +263,10 @@ HealthReport health_report(const Health& health, const std::string& first_bad_pa
 // Error(case_failed) for no seeds.
 Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference);
 
-// Frame by frame, the sum of the passes whose dotted name starts with one of `prefixes` ("generate." or a
-// whole name); nothing when none does. Throws std::invalid_argument when their sample counts differ.
-std::optional<Summary> sum_of_passes(const std::vector<PassTiming>& passes,
-                                     const std::vector<std::string>& prefixes);
+// Frame by frame, the sum of the passes that generate lights, on both halves or on one; nothing without such
+// a pass. Throws std::invalid_argument when their sample counts differ.
+std::optional<Summary> generate_time(const std::vector<PassTiming>& passes,
+                                     std::optional<Half> half = std::nullopt);
 
 // Frame by frame, the sum of all passes but `gbuffer` and `rsm`: rasterising G-buffer and RSM is the same
 // for every method, and a GPU may raster on a few of its units only. Nothing without such a pass; throws as

@@ -72,7 +72,7 @@ void fields(auto& a, Is<Summary> auto& v) {
 }
 
 void fields(auto& a, Is<PassTiming> auto& v) {
-  a("name", v.name);
+  a("name", v.pass);
   fields(a, v.ms);
 }
 

@@ -40,6 +40,20 @@ TEST(ReportSchema, AFullReportIsValid) {
   EXPECT_EQ(violations(to_json(synthetic_report())), std::vector<std::string>());
 }
 
+TEST(ReportSchema, KindsOfErrorAreThoseOfTheProgramme) {
+  Json names = Json::array();
+  for (const ErrorKindRow& row : kErrorKinds) names.push_back(row.name);
+  EXPECT_EQ(report_schema()
+                .at("$defs")
+                .at("case")
+                .at("properties")
+                .at("error")
+                .at("properties")
+                .at("kind")
+                .at("enum"),
+            names);
+}
+
 TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
   const Json full = to_json(synthetic_report());
   std::vector<std::string> pointers, optional;

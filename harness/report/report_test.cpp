@@ -133,23 +133,41 @@ TEST_F(ReportFile, KeepsListsOfSamplesOnOneLine) {
   EXPECT_EQ(JsonDocument::load(path_, ErrorKind::config).root().dump(), to_json(synthetic_report()).dump());
 }
 
+PassTiming timing(const std::string& pass, std::vector<double> ms) {
+  return {parse_pass_name(pass), summarize(std::move(ms))};
+}
+
 TEST(Report, SumsPassesFrameByFrame) {
-  const std::vector<PassTiming> passes = {{"generate.gbuffer.a", summarize({1, 2, 3})},
-                                          {"generate.rsm.b", summarize({30, 20, 10})},
-                                          {"generated", summarize({100, 100, 100})},
-                                          {"shade", summarize({5, 5, 5})}};
-  EXPECT_EQ(sum_of_passes(passes, {"generate."})->samples, (std::vector<double>{31, 22, 13}));
-  EXPECT_EQ(sum_of_passes(passes, {"generate.rsm.", "shade"})->samples, (std::vector<double>{35, 25, 15}));
-  EXPECT_FALSE(sum_of_passes(passes, {"visibility."}));
-  EXPECT_THROW(sum_of_passes({passes[0], {"generate.c", summarize({1})}}, {"generate."}),
-               std::invalid_argument);
+  const std::vector<PassTiming> passes = {timing("generate.gbuffer.a", {1, 2, 3}),
+                                          timing("generate.rsm.b", {30, 20, 10}),
+                                          timing("generated", {100, 100, 100}), timing("shade", {5, 5, 5})};
+  EXPECT_EQ(generate_time(passes)->samples, (std::vector<double>{31, 22, 13}));
+  EXPECT_EQ(generate_time(passes, Half::rsm)->samples, (std::vector<double>{30, 20, 10}));
+  EXPECT_FALSE(generate_time({passes[0], passes[3]}, Half::rsm));
+  EXPECT_THROW(generate_time({passes[0], timing("generate.rsm.c", {1})}), std::invalid_argument);
+}
+
+// What is read from a file is written as it was, whoever wrote it.
+TEST(Report, APassHasTheNameThatItWasReadWith) {
+  const auto parts = [](const char* name) { return parse_pass_name(name); };
+  EXPECT_EQ(parts("gbuffer"), (PassId{PassStage::draw, Half::gbuffer, ""}));
+  EXPECT_EQ(parts("importance.rsm"), (PassId{PassStage::importance, Half::rsm, ""}));
+  EXPECT_EQ(parts("generate.rsm.sort"), (PassId{PassStage::generate, Half::rsm, "sort"}));
+  EXPECT_EQ(parts("visibility.ism.pull"), (PassId{PassStage::visibility, std::nullopt, "ism.pull"}));
+  EXPECT_EQ(parts("shade"), (PassId{.stage = PassStage::shade}));
+  EXPECT_EQ(parts("generated"), (PassId{.step = "generated"}));
+  for (const char* name :
+       {"rsm", "importance.gbuffer", "generate.gbuffer.a.b", "generate.other.sort", "generate",
+        "shade.texels", "direct", ".", "generate.", "generate.rsm.", "rsm.", "", "block"}) {
+    EXPECT_EQ(parts(name).name(), name);
+  }
 }
 
 TEST(Report, TheMethodsTimeIsAllButTheRasterisedPasses) {
   const std::vector<PassTiming> passes = {
-      {"gbuffer", summarize({1000, 2000, 3000})},   {"rsm", summarize({100, 200, 300})},
-      {"importance.gbuffer", summarize({1, 2, 3})}, {"generate.rsm.b", summarize({30, 20, 10})},
-      {"visibility.ism", summarize({7, 7, 7})},     {"shade", summarize({50, 50, 60})}};
+      timing("gbuffer", {1000, 2000, 3000}),   timing("rsm", {100, 200, 300}),
+      timing("importance.gbuffer", {1, 2, 3}), timing("generate.rsm.b", {30, 20, 10}),
+      timing("visibility.ism", {7, 7, 7}),     timing("shade", {50, 50, 60})};
   const auto time = method_time(passes);
   ASSERT_TRUE(time);
   EXPECT_EQ(time->samples, (std::vector<double>{88, 79, 80}));
@@ -158,13 +176,12 @@ TEST(Report, TheMethodsTimeIsAllButTheRasterisedPasses) {
 }
 
 TEST(Report, AFrameIsItsPassesAndTheRest) {
-  const FrameTiming f =
-      frame_timing({10, 12, 11}, {{"a", summarize({4, 5, 4})}, {"b", summarize({5, 5, 6})}});
+  const FrameTiming f = frame_timing({10, 12, 11}, {timing("a", {4, 5, 4}), timing("b", {5, 5, 6})});
   EXPECT_EQ(f.span.median, 11);
   EXPECT_EQ(f.sum_ms, 10);
   EXPECT_EQ(f.unattributed_ms, 1);
   EXPECT_EQ(f.method->samples, (std::vector<double>{9, 10, 10}));
-  EXPECT_THROW(frame_timing({10}, {{"a", summarize({4, 5})}}), std::invalid_argument);
+  EXPECT_THROW(frame_timing({10}, {timing("a", {4, 5})}), std::invalid_argument);
 }
 
 TEST(Report, TheClockReadsUtc) {

@@ -6,7 +6,7 @@
 namespace vsglbench {
 
 inline PassTiming synthetic_pass(const std::string& name, double ms) {
-  return {name, summarize({ms, 1.25 * ms, 0.75 * ms, ms})};
+  return {parse_pass_name(name), summarize({ms, 1.25 * ms, 0.75 * ms, ms})};
 }
 
 inline CaseResult synthetic_case(const std::string& id) {
@@ -24,7 +24,7 @@ inline CaseResult synthetic_case(const std::string& id) {
   GenerateResult g;
   g.gbuffer_ms = 0.5;
   g.rsm_ms = 4;
-  g.total = *sum_of_passes(c.passes, {"generate."});
+  g.total = *generate_time(c.passes);
   g.lights = 256;
   g.empty = 2;
   g.overlap = 0.25;
@@ -59,7 +59,7 @@ inline CaseResult synthetic_generation(const std::string& id, double ms) {
   c.passes = {synthetic_pass("generate.gbuffer.sample", 0.25 * ms),
               synthetic_pass("generate.rsm.sample", 0.75 * ms)};
   c.frame = frame_timing({ms, 1.25 * ms, 0.75 * ms, ms}, c.passes);
-  c.generate->total = *sum_of_passes(c.passes, {"generate."});
+  c.generate->total = *generate_time(c.passes);
   c.generate->gbuffer_ms = 0.25 * ms;
   c.generate->rsm_ms = 0.75 * ms;
   c.effects.reset();
@@ -76,7 +76,7 @@ inline CaseResult synthetic_failure(const std::string& id, Status status, const 
   c.scene = "cornell";
   c.method = "vpl";
   c.status = status;
-  c.error = CaseError{"case_failed", message};
+  c.error = CaseError{ErrorKind::case_failed, message};
   return c;
 }
 

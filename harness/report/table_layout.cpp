@@ -1,8 +1,7 @@
 #include "report/table_layout.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
+#include <set>
 
 #include "base/nearest.h"
 #include "report/case_names.h"
@@ -19,7 +18,7 @@ constexpr const char* kFloor = "noise floor";
 std::vector<const CaseResult*> chosen_cases(const Report& report, const std::vector<std::string>& globs) {
   std::vector<const CaseResult*> cases;
   for (const CaseResult& c : report.cases) {
-    const auto matches = [&](const auto& glob) { return ::fnmatch(glob.c_str(), c.id.c_str(), 0) == 0; };
+    const auto matches = [&](const auto& glob) { return matches_glob(c.id, glob); };
     if (globs.empty() || std::ranges::any_of(globs, matches)) cases.push_back(&c);
   }
   if (cases.empty() && !globs.empty())
@@ -70,8 +69,11 @@ std::vector<Column> chosen_columns(const Report& report, const std::vector<const
 
 // --- the two shapes ---
 
-std::string message_of(const CaseResult& c) {
-  return fmt::format("{}: {}", name(c.status), c.error ? c.error->message : "no reason recorded");
+// A reason that many cases share, such as a scene whose asset is absent, is told once.
+std::string message_of(const CaseResult& c, std::set<std::string>* told) {
+  const std::string reason = c.error ? c.error->message : "no reason recorded";
+  const bool fresh = told->insert(reason).second;
+  return fmt::format("{}: {}", name(c.status), fresh ? reason : "as said above");
 }
 
 void add_unless_empty(const TableLine& line, TableLayout* table) {
@@ -91,6 +93,7 @@ TableLayout one_row_a_case(const Report& report, const std::vector<const CaseRes
   TableLayout table{{"case"}, {}, {}};
   for (const Column& column : columns) table.heads.push_back(column.head);
   const CaseNames names(cases);
+  std::set<std::string> told;
   for (size_t i = 0; i < cases.size(); ++i) {
     const CaseResult& c = *cases[i];
     TableLine line{c.scene, names.label(c), {}, ""};
@@ -98,7 +101,7 @@ TableLayout one_row_a_case(const Report& report, const std::vector<const CaseRes
       const CaseResult& first = first_of_scene(report, c);
       for (const Column& column : columns) line.cells.push_back(column.cell(c, first));
     } else {
-      line.message = message_of(c);
+      line.message = message_of(c, &told);
     }
     table.lines.push_back(line);
     if (i + 1 == cases.size() || cases[i + 1]->scene != c.scene) add_floor(report, c.scene, columns, &table);

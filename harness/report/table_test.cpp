@@ -90,6 +90,14 @@ TEST(Table, FailedAndSkippedCasesSayWhy) {
   expect_parts(markdown_table(r), {"failed: a NaN in pass shade"});
 }
 
+TEST(Table, AReasonThatCasesShareIsToldOnce) {
+  Report r = synthetic_report();
+  r.cases.push_back(synthetic_failure("sponza/other", Status::skipped, "sponza.gltf is absent"));
+  const std::string table = terminal_table(r);
+  EXPECT_EQ(table.find("sponza.gltf is absent"), table.rfind("sponza.gltf is absent")) << table;
+  expect_parts(table, {"skipped: as said above"});
+}
+
 TEST(Table, ErrorsUnderTheFloorAreNotDifferences) {
   Report r = synthetic_report();
   r.cases[0].accuracy->reference.noise_floor_smape = 12.5;

@@ -151,7 +151,7 @@ TEST(Progressive, ErrorFallsUpToEightIterations) {
   const auto error = [&](uint32_t iterations) {
     FrameParameters p = frame(64, 64);
     p.bias_reduction = 0.1f;
-    p.iterations = iterations;
+    p.progressive = iterations;
     return over_seeds(lab, "mfis", Json::object(), p,
                       [&](const Image& image) { return measure_errors(image, exact, lab.mask).smape; });
   };

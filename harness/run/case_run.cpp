@@ -22,10 +22,6 @@ void state_exposures(const FlipExposures& exposures, MetricResult* flip) {
 
 }  // namespace
 
-std::string error_kind(const Error& error, const char* input) {
-  return error.exit_code() == 1 ? "case_failed" : input;
-}
-
 std::string one_line(std::string text) {
   constexpr size_t kMostCharacters = 500;
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -48,14 +44,13 @@ CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall, 
   result_.parameters = case_.parameters;
 }
 
-void CaseRun::fail_with(const std::string& kind, const std::string& message) {
+void CaseRun::fail_with(ErrorKind kind, const std::string& message) {
   if (failed()) return;
-  result_.status = kind == "asset_missing" ? Status::skipped : Status::failed;
+  result_.status = kind == ErrorKind::asset_missing ? Status::skipped : Status::failed;
   result_.error = CaseError{kind, message};
   frame_.reset();
 }
 
-// What a user gives a case beside numbers is a method: a kernel that does not compile, say.
 template <class Action>
 void CaseRun::attempt(const std::string& name, const Action& action) {
   if (finished()) return;
@@ -64,7 +59,7 @@ void CaseRun::attempt(const std::string& name, const Action& action) {
     announce(true);
     action();
   };
-  guarded("plugin", announced, [this](const auto& kind, const auto& message) { fail_with(kind, message); });
+  guarded(announced, [this](ErrorKind kind, const std::string& message) { fail_with(kind, message); });
 }
 
 void CaseRun::announce(bool limited) const {
@@ -153,7 +148,7 @@ void CaseRun::step() {
 }
 
 void CaseRun::score(uint32_t seed) {
-  const Image image = frame_->indirect();
+  const Image image = frame_->results().indirect();
   if (mask_.empty()) make_mask();
   check_health_of(image);
   check_lights();
@@ -183,14 +178,15 @@ void CaseRun::measure_look(const Image& image, uint32_t seed, Errors* errors) {
 }
 
 void CaseRun::make_mask() {
-  mask_ = frame_->surface_mask();
+  mask_ = frame_->results().surface_mask();
   for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && input_.reference->mask[i];
 }
 
 // One NaN or Inf fails the case and names the pass that first held one; it is never averaged away.
 void CaseRun::check_health_of(const Image& image) {
   const Health health = check_health(image);
-  const std::string pass = health.finite() ? "" : frame_->first_bad_pass();
+  const auto bad = health.finite() ? std::nullopt : frame_->results().first_bad_pass();
+  const std::string pass = bad ? bad->name() : "";
   HealthReport report = health_report(health, pass);
   if (result_.health) {  // counts add up over seeds
     report.nan += result_.health->nan;
@@ -199,76 +195,74 @@ void CaseRun::check_health_of(const Image& image) {
   }
   result_.health = report;
   if (health.finite()) return;
-  fail_with("not_finite",
-            fmt::format("{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one",
-                        health.nan, health.inf, health.first_bad->x, health.first_bad->y, pass));
-  throw fail(ErrorKind::case_failed, "not finite");  // ends the step; the failure above stays
+  throw fail(ErrorKind::not_finite,
+             "{} NaN and {} Inf pixels, the first at ({}, {}); pass {} is the first to hold one", health.nan,
+             health.inf, health.first_bad->x, health.first_bad->y, pass);
 }
 
-// The same for the lights. A light of NaNs need not show in the image: what has no power above 0 is not
-// shaded.
+// The same for the lights and the importance. A light of NaNs need not show in the image: what has no power
+// above 0 is not shaded; and from a PDF with a NaN no light is drawn.
 void CaseRun::check_lights() {
-  const LightHealth health = frame_->light_health();
-  if (health.first_bad_pass.empty()) return;
-  result_.health = HealthReport{health.nan, health.inf, 0,
-                                FirstBad{health.first_bad_pass, std::nullopt, health.first_bad}};
-  fail_with("not_finite", fmt::format("{} lights with a NaN and {} with an Inf, the first is light {} of {}",
-                                      health.nan, health.inf, health.first_bad, health.first_bad_pass));
-  throw fail(ErrorKind::case_failed, "not finite");
+  const std::optional<BadValues> bad = frame_->results().bad_values();
+  if (!bad) return;
+  FirstBad first{.pass = bad->pass.name()};
+  if (bad->are_lights) {
+    first.light = bad->first;
+  } else {
+    first.buffer = "pdf.rsm";
+    first.element = bad->first;
+    first.texel = bad->texel;
+  }
+  result_.health = HealthReport{bad->nan, bad->inf, 0, first};
+  throw Error(ErrorKind::not_finite, bad->message());
 }
 
 // Lights that no kernel wrote are what another case left there, and what is written past a buffer's end
 // another's memory: neither may be scored, however plausible the picture.
 void CaseRun::check_memory() {
-  if (!frame_->memory_fault().empty()) refuse(frame_->memory_fault());
+  if (!frame_->memory_fault().empty()) throw Error(ErrorKind::refused, frame_->memory_fault());
 }
 
 // Σ light power / Σ texel power of the last frame, or 0 where the texels have none. The RSM is the same for
 // all seeds.
 double CaseRun::check_flux() {
-  if (!texel_power_) texel_power_ = frame_->texel_power();
-  const double power = frame_->light_power();
+  if (!texel_power_) texel_power_ = frame_->results().texel_power();
+  const double power = frame_->results().light_power();
   if (!(*texel_power_ > 0)) {
     if (power > 0)
-      refuse(fmt::format("power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none",
-                         power));
+      throw fail(ErrorKind::refused,
+                 "power from nothing: the lights carry {:.4g} W, and the RSM's texels reflect none", power);
     return 0;
   }
   // A PDF that is zero everywhere asks for no light.
   const double flux = power / *texel_power_;
-  if (flux > 0 || frame_->has_importance()) flux_.push_back(flux);
-  if (const std::string fault = flux_fault(find_method(case_.method), flux_); !fault.empty()) refuse(fault);
+  if (flux > 0 || frame_->results().has_importance()) flux_.push_back(flux);
+  const std::string fault = flux_fault(find_method(case_.method), flux_);
+  if (!fault.empty()) throw Error(ErrorKind::refused, fault);
   return flux;
-}
-
-void CaseRun::refuse(const std::string& why) {
-  fail_with("refused", why);
-  throw fail(ErrorKind::case_failed, "refused");  // ends the step; the failure above stays
 }
 
 // With check_passes, and in every frame: what any pass wrote, though nothing of it may be left at the end.
 void CaseRun::check_passes() {
   const std::optional<BadOutput> bad = frame_->bad_output();
   if (!bad) return;
-  FirstBad first{.pass = bad->pass, .buffer = bad->buffer, .field = bad->field};
+  FirstBad first{.pass = bad->pass.name(), .buffer = bad->buffer, .field = bad->field};
   (bad->is_light ? first.light : first.element) = bad->element;
   first.texel = bad->texel;
   first.level = bad->level;
   result_.health = HealthReport{bad->nan, bad->inf, 0, first};
-  fail_with("not_finite", bad->message());
-  throw fail(ErrorKind::case_failed, "not finite");
+  throw Error(ErrorKind::not_finite, bad->message());
 }
 
 void CaseRun::record(const FrameTimes& times) {
-  if (pass_names_.empty()) {
-    for (const auto& pass : times.passes) pass_names_.push_back(pass.name);
-    pass_ms_.resize(pass_names_.size());
+  if (passes_.empty()) {
+    for (const PassTime& time : times.passes) passes_.push_back(time.pass);
+    pass_ms_.resize(passes_.size());
   }
-  const auto same = [](const std::string& name, const PassTime& pass) { return name == pass.name; };
-  if (!std::equal(pass_names_.begin(), pass_names_.end(), times.passes.begin(), times.passes.end(), same)) {
+  if (!std::ranges::equal(passes_, times.passes, {}, {}, &PassTime::pass)) {
     throw fail(ErrorKind::case_failed, "frame {} had other passes than the first", span_ms_.size());
   }
-  for (size_t i = 0; i < pass_names_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
+  for (size_t i = 0; i < passes_.size(); ++i) pass_ms_[i].push_back(times.passes[i].ms);
   span_ms_.push_back(times.span_ms);
   if (!result_.generate) result_.generate.emplace();
   result_.generate->dispatches = times.generate_dispatches;
@@ -276,12 +270,8 @@ void CaseRun::record(const FrameTimes& times) {
 
 void CaseRun::describe_lights() {
   GenerateResult& generate = *result_.generate;
-  const auto without_power = [](const auto& lights) {
-    return static_cast<uint64_t>(
-        std::count_if(lights.begin(), lights.end(), [](const auto& l) { return !(l.power > 0); }));
-  };
   generate.lights = frame_->light_count();
-  generate.empty = without_power(frame_->vsgls()) + without_power(frame_->vpls());
+  generate.empty = count_without_power(frame_->results().lights());
   generate.shaders = frame_->method_kernels();
   generate.memory_bytes = frame_->method_bytes();
   const uint32_t side = case_.frame.rsm;
@@ -297,7 +287,7 @@ void CaseRun::describe_lights() {
 }
 
 void CaseRun::describe_shading() {
-  ShadingNotes notes = frame_->shading_notes();
+  ShadingNotes notes = frame_->results().shading_notes();
   if (notes.clamp_removed || notes.cancellation_rate)
     result_.shading = ShadingResult{notes.clamp_removed, notes.cancellation_rate};
   cancellation_ = std::move(notes.cancellation);
@@ -305,14 +295,12 @@ void CaseRun::describe_shading() {
 
 CaseResult CaseRun::result() const {
   CaseResult r = result_;
-  for (size_t i = 0; i < pass_names_.size(); ++i)
-    r.passes.push_back({pass_names_[i], summarize(pass_ms_[i])});
+  for (size_t i = 0; i < passes_.size(); ++i) r.passes.push_back({passes_[i], summarize(pass_ms_[i])});
   if (!span_ms_.empty()) {
     r.frame = frame_timing(span_ms_, r.passes);
     if (!rays_ms_.empty()) r.frame->host_visibility = summarize(rays_ms_);
-    const auto total = sum_of_passes(r.passes, {"generate."});
-    const auto gbuffer = sum_of_passes(r.passes, {"generate.gbuffer."});
-    const auto rsm = sum_of_passes(r.passes, {"generate.rsm."});
+    const auto total = generate_time(r.passes);
+    const auto gbuffer = generate_time(r.passes, Half::gbuffer), rsm = generate_time(r.passes, Half::rsm);
     r.generate->total = total ? *total : summarize(std::vector<double>(span_ms_.size(), 0));
     r.generate->gbuffer_ms = gbuffer ? gbuffer->median : 0;
     r.generate->rsm_ms = rsm ? rsm->median : 0;

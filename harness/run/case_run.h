@@ -30,8 +30,8 @@ class CaseRun {
   // called at the start of every action that runs the method's code.
   CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce = {});
 
-  // Compiles its kernels and takes its memory. Like warm_up() and step() it throws Error(device) only, for a
-  // device that is lost to all: whatever else goes wrong fails the case, and only this one.
+  // Compiles its kernels and takes its memory. Like warm_up() and step() it throws Error(device_lost) only,
+  // for a device that is lost to all: whatever else goes wrong fails the case, and only this one.
   void open(Stage& stage, CaseInput input);
   // One untimed frame.
   void warm_up();
@@ -53,8 +53,8 @@ class CaseRun {
   bool finished() const { return finished_ || failed(); }
   bool failed() const { return result_.status != Status::ok; }
   uint64_t frames_left() const;  // at least
-  // The first failure stays; what was measured until then is kept. Kind "asset_missing" skips the case.
-  void fail_with(const std::string& kind, const std::string& message);
+  // The first failure stays; what was measured until then is kept. Kind asset_missing skips the case.
+  void fail_with(ErrorKind kind, const std::string& message);
 
   // Everything measured so far, as the report holds it.
   CaseResult result() const;
@@ -77,7 +77,6 @@ class CaseRun {
   void make_mask();
   void measure_look(const Image& image, uint32_t seed, Errors* errors);
   void check_health_of(const Image& image);
-  [[noreturn]] void refuse(const std::string& why);
   void check_memory();
   void check_lights();
   double check_flux();
@@ -94,7 +93,7 @@ class CaseRun {
   CaseInput input_;
   std::unique_ptr<Frame> frame_;
   CaseResult result_;  // but for what result() makes of the samples below
-  std::vector<std::string> pass_names_;
+  std::vector<PassId> passes_;
   std::vector<std::vector<double>> pass_ms_;  // of each pass, one a frame
   std::vector<double> span_ms_;
   std::vector<double> rays_ms_;  // of exact visibility on the host, in each frame that traced any
@@ -112,28 +111,25 @@ class CaseRun {
   bool rendered_ = false, finished_ = false, concluded_ = false;
 };
 
-// The report's name of an error: "case_failed", or `input` for what the user gave.
-std::string error_kind(const Error& error, const char* input);
-
 // Calls `action`; hands whatever it throws to `failed(kind, message)`, the message on one line. Only
-// Error(device) goes on to the caller: a lost device ends more than what `action` was about.
+// Error(device_lost) goes on to the caller: a lost device ends more than what `action` was about.
 template <class Action, class Failed>
-void guarded(const char* input, const Action& action, const Failed& failed);
+void guarded(const Action& action, const Failed& failed);
 
 // "a\nb" as "a b".
 std::string one_line(std::string text);
 
 template <class Action, class Failed>
-void guarded(const char* input, const Action& action, const Failed& failed) {
+void guarded(const Action& action, const Failed& failed) {
   try {
     action();
   } catch (const Error& e) {
-    if (e.kind() == ErrorKind::device) throw;
-    failed(error_kind(e, input), one_line(e.what()));
+    if (e.kind() == ErrorKind::device_lost) throw;
+    failed(e.kind(), one_line(e.what()));
   } catch (const std::bad_alloc&) {
-    failed("case_failed", "out of memory; use a smaller frame, RSM or number of lights");
+    failed(ErrorKind::case_failed, "out of memory; use a smaller frame, RSM or number of lights");
   } catch (const std::exception& e) {
-    failed("internal", one_line(e.what()));
+    failed(ErrorKind::internal, one_line(e.what()));
   }
 }
 

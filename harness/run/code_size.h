@@ -12,11 +12,6 @@
 
 namespace vsglbench {
 
-// [MFIS16] Tab. 3, C++ and HLSL; of one half.
-struct PublishedCodeSize {
-  int shaders, dispatches, lines;
-};
-
 struct CodeSize {
   std::string method;
   size_t kernels = 0;               // compiled, variants counted apart

@@ -7,8 +7,11 @@
 #include "base/file.h"
 #include "base/nearest.h"
 #include "base/percent.h"
+#include "run/case_keys.h"
+#include "run/overrides.h"
 #include "run/preset.h"
 #include "run/scene_pdfs.h"
+#include "scene/scene_file.h"
 
 namespace fs = std::filesystem;
 
@@ -27,10 +30,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-bool is_path(const std::string& name) {
-  return name.find('/') != std::string::npos || name.ends_with(".json");
-}
-
 // Scene file and view, the same for "cornell", its default view by name, and its path; the scene as it stands
 // where the file can't be read: that shows when it is loaded.
 std::string identity_of(const std::string& scene, const fs::path& file, std::string view) {
@@ -46,20 +45,18 @@ std::string identity_of(const std::string& scene, const fs::path& file, std::str
 // A scene that is misspelt is found now, not after an hour of measuring others. Whether its geometry is there
 // and sound shows when it is loaded. Returns what two names of the same scene share.
 std::string check_scene_name(const JsonDocument& doc, const std::string& at, const std::string& scene) {
-  const size_t colon = scene.rfind(':'), slash = scene.rfind('/');
-  const bool has_view = colon != std::string::npos && (slash == std::string::npos || colon > slash);
-  const std::string name = has_view ? scene.substr(0, colon) : scene;
+  const SceneName name = parse_scene_name(scene);
   std::error_code ec;
-  fs::path file = data_root() / "scenes" / name / "scene.json";
-  if (is_path(name)) {
-    file = fs::is_directory(name, ec) ? fs::path(name) / "scene.json" : fs::path(name);
+  fs::path file = data_root() / "scenes" / name.scene / "scene.json";
+  if (is_path(name.scene)) {
+    file = fs::is_directory(name.scene, ec) ? fs::path(name.scene) / "scene.json" : fs::path(name.scene);
     if (!fs::exists(file, ec))
-      throw doc.error(at, fmt::format("no scene '{}': {} does not exist", name, file.string()));
-  } else if (!fs::exists(file, ec) || name.empty()) {
-    throw doc.error(at,
-                    fmt::format("no scene '{}'{}", name, suggestion(name, names_in(data_root() / "scenes"))));
+      throw doc.error(at, fmt::format("no scene '{}': {} does not exist", name.scene, file.string()));
+  } else if (!fs::exists(file, ec) || name.scene.empty()) {
+    throw doc.error(at, fmt::format("no scene '{}'{}", name.scene,
+                                    suggestion(name.scene, names_in(data_root() / "scenes"))));
   }
-  return identity_of(scene, file, has_view ? scene.substr(colon + 1) : "");
+  return identity_of(scene, file, name.view.value_or(""));
 }
 
 void check_scenes(const JsonDocument& doc, const std::vector<std::string>& scenes) {
@@ -126,9 +123,10 @@ void read_reference(const JsonDocument& doc, Config* config) {
 // What only an image is judged with is refused where there is none.
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
-  std::vector<std::string> unread = {"seeds",      "reference",   "visibility",    "ism",
-                                     "importance", "progressive", "bias_reduction"};
-  for (const ShadingAxis& axis : shading_axes()) unread.push_back(axis.key);
+  std::vector<std::string> unread = {"seeds", "reference", "ism"};
+  for (const CaseKey& key : case_keys()) {
+    if (key.scope & kFrame) unread.push_back(key.name);
+  }
   for (const auto& key : unread) {
     if (doc.root().contains(key))
       throw doc.error(fmt::format("/{}", key), "is not read where only generation is measured");
@@ -146,10 +144,9 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
               {"methods", root.at("methods")},
               {"frame", {{"width", base.width}, {"height", base.height}}}};
   if (root.contains("preset")) out["preset"] = root.at("preset");
-  for (const auto& [key, value] : case_defaults().items()) {
-    const bool shades = key == "visibility" || key == "importance" || key == "progressive" ||
-                        key == "bias_reduction" || is_shading_key(key);
-    if (!shades || !generation) out[key] = root.value(key, preset.value(key, value));
+  for (const CaseKey& key : case_keys()) {
+    if (!(key.scope & kFrame) || !generation)
+      out[key.name] = root.value(key.name, preset.value(key.name, key.default_value));
   }
   if (!generation) {
     out["ism"] = {{"size", base.ism.size}, {"points", base.ism.points}};
@@ -163,7 +160,7 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
       out["reference"]["time_limit_s"] = config.reference.time_limit_s;
     }
   }
-  if (generation) out["pdfs_made_by"] = ScenePdfs::kMaker;
+  if (generation) out["pdfs_made_by"] = ScenePdfs::maker().name;
   out["time_limit_s"] = config.time_limit_s;
   out["timing"] = {{"warmup", config.warmup},
                    {"min_samples", config.timing.min_samples},
@@ -171,12 +168,6 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
                    {"relative_width", config.timing.relative_width},
                    {"time_limit_s", config.timing.time_limit_s}};
   return out;
-}
-
-const Json& config_schema() {
-  static const Json schema =
-      JsonDocument::load(data_root() / "harness" / "run" / "config.schema.json", ErrorKind::config).root();
-  return schema;
 }
 
 }  // namespace
@@ -190,14 +181,21 @@ fs::path config_path(const std::string& name_or_path) {
              suggestion(name_or_path, names_in(data_root() / "configs")));
 }
 
-Config load_config(const fs::path& path) {
+const Json& config_schema() {
+  static const Json schema =
+      JsonDocument::load(data_root() / "harness" / "run" / "config.schema.json", ErrorKind::config).root();
+  return schema;
+}
+
+Config load_config(const fs::path& path, const Overrides& overrides) {
   const JsonDocument doc = JsonDocument::load(path, ErrorKind::config);
   if (doc.root().is_object() && doc.root().contains("figure")) {
     throw doc.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`",
                                            path.stem().string()));
   }
   check_schema(doc, config_schema());
-  const Json& root = doc.root();
+  Json root = doc.root();
+  apply(overrides, &root);
   Config config;
   config.name = root.at("name");
   config.description = root.value("description", "");
@@ -210,8 +208,10 @@ Config load_config(const fs::path& path) {
   read_reference(doc, &config);
   const Json preset = preset_of(doc, root, "");
   const FrameParameters base = base_parameters(root, preset);
-  config.cases = expand_cases(doc, base);
+  config.cases = expand_cases(doc, root, overrides, base);
+  check_read(overrides, config.cases);
   config.resolved = resolved_settings(config, base, root, preset);
+  if (!overrides.empty()) config.resolved["set"] = overrides;
   return config;
 }
 

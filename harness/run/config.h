@@ -34,8 +34,12 @@ struct Config {
 };
 
 // Throws Error(config) "FILE:LINE: ..." for anything unknown, of a wrong type, out of range, a scene that
-// does not exist, or a sweep that makes the same case twice.
-Config load_config(const std::filesystem::path& path);
+// does not exist, or a sweep that makes the same case twice. `overrides` (run/overrides.h) replace what the
+// file says.
+Config load_config(const std::filesystem::path& path, const Overrides& overrides = Json::object());
+
+// The schema of an experiment file.
+const Json& config_schema();
 
 // A path as it is; a bare name as configs/NAME.json of the data folder. Throws Error(config) naming the
 // nearest one when that does not exist.

@@ -25,7 +25,7 @@ std::vector<double> flux(const std::string& scene, const std::string& method, co
   for (uint32_t seed = 0; seed < seeds; ++seed) {
     frame.render(seed, true);
     EXPECT_EQ(frame.memory_fault(), "");
-    ratios.push_back(frame.light_power() / frame.texel_power());
+    ratios.push_back(frame.results().light_power() / frame.results().texel_power());
   }
   return ratios;
 }

@@ -24,7 +24,7 @@ void crash() {
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
 }
-void lose_device() { throw fail(ErrorKind::device, "Vulkan: the device was lost (code -4) in a test"); }
+void lose_device() { throw fail(ErrorKind::device_lost, "Vulkan: the device was lost (code -4) in a test"); }
 
 class IsolationTest : public RunFixture {
  protected:
@@ -64,7 +64,7 @@ class IsolationTest : public RunFixture {
   }
 
   // fis failed as told; vpl and mfis have their numbers and their images; the A/A pair is of one of them.
-  void expect_only_fis_failed(const RunOutcome& outcome, const std::string& kind,
+  void expect_only_fis_failed(const RunOutcome& outcome, ErrorKind kind,
                               const std::vector<std::string>& parts) {
     EXPECT_EQ(outcome.exit_code, 1);
     expect_sound(out_ / "report.json");
@@ -97,7 +97,7 @@ TEST_F(IsolationTest, ACrashCostsItsOwnCase) {
   for (const char* action : {"opening", "warm-up", "frame 1", "frame 2", "closing"}) {
     SCOPED_TRACE(action);
     fs::remove_all(out_);
-    expect_only_fis_failed(run(kFis, action, crash), "crashed", {"signal 11", action});
+    expect_only_fis_failed(run(kFis, action, crash), ErrorKind::crashed, {"signal 11", action});
     EXPECT_GT(report().wall.device_s, 0);
   }
 }
@@ -106,24 +106,26 @@ TEST_F(IsolationTest, AHangIsStoppedAtTheLimit) {
   const auto hang = [] {
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
   };
-  expect_only_fis_failed(run(kFis, "frame 2", hang, 12), "timeout", {"12 s", "frame 2"});
+  expect_only_fis_failed(run(kFis, "frame 2", hang, 12), ErrorKind::timeout, {"12 s", "frame 2"});
 }
 
 TEST_F(IsolationTest, ALostDeviceIsOpenedAnew) {
-  expect_only_fis_failed(run(kFis, "frame 1", lose_device), "device_lost",
+  expect_only_fis_failed(run(kFis, "frame 1", lose_device), ErrorKind::device_lost,
                          {"the device was lost (code -4)", "frame 1"});
 }
 
 TEST_F(IsolationTest, EndingTheProcessIsACrashWhateverTheCode) {
-  expect_only_fis_failed(run(kFis, "frame 1", [] { ::_exit(0); }), "crashed", {"exit code 0", "frame 1"});
+  expect_only_fis_failed(run(kFis, "frame 1", [] { ::_exit(0); }), ErrorKind::crashed,
+                         {"exit code 0", "frame 1"});
   fs::remove_all(out_);
-  expect_only_fis_failed(run(kFis, "warm-up", [] { throw 42; }), "crashed", {"exception", "warm-up"});
+  expect_only_fis_failed(run(kFis, "warm-up", [] { throw 42; }), ErrorKind::crashed,
+                         {"exception", "warm-up"});
 }
 
 // An exception is no crash: the same worker goes on, and every frame is rendered once.
 TEST_F(IsolationTest, AnExceptionNeedsNoNewWorker) {
   const auto misdeed = [] { throw fail(ErrorKind::case_failed, "this method gives up"); };
-  expect_only_fis_failed(run(kFis, "frame 2", misdeed), "case_failed", {"this method gives up"});
+  expect_only_fis_failed(run(kFis, "frame 2", misdeed), ErrorKind::case_failed, {"this method gives up"});
   EXPECT_EQ(began("", "loading the scene"), 1);
 }
 
@@ -137,7 +139,7 @@ TEST_F(IsolationTest, WhatWasFinishedIsNotMeasuredAgain) {
   const Report r = report();
   EXPECT_EQ(find(r, kVpl).status, Status::ok);
   EXPECT_EQ(find(r, kFis).status, Status::ok);
-  EXPECT_EQ(find(r, kMfis).error->kind, "crashed");
+  EXPECT_EQ(find(r, kMfis).error->kind, ErrorKind::crashed);
   EXPECT_TRUE(fs::exists(out_ / r.scenes.at(0).contact));
   expect_sound(out_ / "report.json");
 }
@@ -172,7 +174,7 @@ TEST_F(IsolationTest, ACrashOfTheHarnessFailsWhatIsLeftOfTheScene) {
   EXPECT_EQ(run("", "loading the scene", crash).exit_code, 1);
   EXPECT_EQ(began("", "loading the scene"), 1);
   for (const auto& c : report().cases) {
-    EXPECT_EQ(c.error->kind, "crashed");
+    EXPECT_EQ(c.error->kind, ErrorKind::crashed);
     EXPECT_TRUE(contains(c.error->message, "loading the scene"));
   }
   fs::remove_all(out_);
@@ -202,7 +204,7 @@ TEST_F(IsolationTest, ARunThatWasCutShortAfterACrashGoesOn) {
   const Report r = report();
   EXPECT_TRUE(r.complete);
   ASSERT_EQ(r.cases.size(), 4u);
-  EXPECT_EQ(find(r, kFis).error->kind, "crashed");
+  EXPECT_EQ(find(r, kFis).error->kind, ErrorKind::crashed);
   EXPECT_EQ(find(r, kVpl).status, Status::ok);
   EXPECT_EQ(find(r, kMfis).status, Status::ok);
   EXPECT_EQ(r.aa.size(), 1u);
@@ -229,8 +231,8 @@ TEST_F(IsolationTest, NoDeviceForANewWorkerFailsTheRest) {
   EXPECT_TRUE(contains(log.device_gone, "Vulkan"));
   sort_like(config.cases, &outcome.cases);
   ASSERT_EQ(outcome.cases.size(), 3u);
-  EXPECT_EQ(outcome.cases[1].error->kind, "crashed");
-  for (const size_t i : {0, 2}) EXPECT_EQ(outcome.cases[i].error->kind, "device");
+  EXPECT_EQ(outcome.cases[1].error->kind, ErrorKind::crashed);
+  for (const size_t i : {0, 2}) EXPECT_EQ(outcome.cases[i].error->kind, ErrorKind::device);
 }
 
 // A worker that outlives the parent by a moment must not keep the next run out of the folder.

@@ -46,12 +46,12 @@ class Laboratory {
                 [&](const std::vector<LightPoint>& points) { return bits(*self, points); });
     self = &frame;
     frame.render(seed);
-    notes = frame.shading_notes();
-    mask = frame.surface_mask();
-    importance = frame.importance();
+    notes = frame.results().shading_notes();
+    mask = frame.results().surface_mask();
+    importance = frame.results().importance();
     camera = frame.camera();
     light = frame.light();
-    return frame.indirect();
+    return frame.results().indirect();
   }
 
   const ReferenceResult& reference(bool occlusion) {
@@ -77,7 +77,7 @@ class Laboratory {
   uint32_t importance_lights = 256;
   Mask mask;
   ShadingNotes notes;
-  std::vector<float> importance;  // as Frame::importance()
+  std::vector<float> importance;  // as FrameReadback::importance()
   gpu::Emitter camera, light;
 
  private:

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/csv.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "base/nearest.h"
 #include "base/progress.h"
+#include "base/supervise.h"
 #include "lights/light_pictures.h"
 #include "method/registry.h"
 #include "report/environment.h"
@@ -20,23 +21,6 @@ namespace fs = std::filesystem;
 
 namespace vsglbench {
 namespace {
-
-const Case& select_case(const std::vector<Case>& cases, const std::string& wanted) {
-  std::vector<const Case*> matches;
-  std::vector<std::string> ids;
-  for (const Case& c : cases) {
-    if (c.id == wanted) return c;
-    if (c.id.find(wanted) != std::string::npos) matches.push_back(&c);
-    ids.push_back(c.id);
-  }
-  if (matches.size() == 1) return *matches.front();
-  if (matches.empty()) {
-    throw fail(ErrorKind::usage, "no case '{}' among the {} of this config; the nearest is '{}'", wanted,
-               cases.size(), nearest_name(wanted, ids));
-  }
-  throw fail(ErrorKind::usage, "'{}' is part of {} cases' ids, '{}' and '{}' for two; give more of one",
-             wanted, matches.size(), matches[0]->id, matches[1]->id);
-}
 
 // Visibility has no say in where the lights are.
 FrameParameters without_visibility(FrameParameters parameters) {
@@ -62,11 +46,7 @@ Json to_json(const Coverage& c) {
   return json;
 }
 
-const char* kind_name(LightKind kind) {
-  return kind == LightKind::vsgl ? "vsgl" : kind == LightKind::vsl ? "vsl" : "vpl";
-}
-
-// Of this run, for every case's file.
+// In the worker: the device, and the scene at hand.
 class LightsRun {
  public:
   LightsRun(const LightsOptions& options, const Config& config, const fs::path& out)
@@ -76,59 +56,68 @@ class LightsRun {
         device_({.select = options.device}),
         kernels_(device_) {}
 
-  // All of one scene.
-  void run(const std::vector<Case>& cases, std::vector<LightsResult>* results);
+  // Cases of one scene come one after the other. `begin` is called before each action that may take long.
+  LightsResult run(const Case& c, const std::function<void(const std::string&, double limit_s)>& begin);
 
  private:
-  void draw(Stage& stage, ScenePdfs* shared, const Case& c, LightsResult* result);
+  // A scene on the device, and the PDFs that its cases share.
+  struct Place {
+    Place(LightsRun& run, const std::string& name);
+    std::string name;
+    Scene scene;
+    Stage stage;
+    std::optional<ScenePdfs> pdfs;
+  };
+  void draw(Place& place, const Case& c, LightsResult* result);
   Json describe(const Case& c, const LightSet& lights, const Scene& scene, const LightsResult& result) const;
   const LightsOptions& options_;
   const Config& config_;
   const fs::path out_;
   Device device_;
   KernelLibrary kernels_;
+  std::unique_ptr<Place> place_;
 };
 
-void LightsRun::run(const std::vector<Case>& cases, std::vector<LightsResult>* results) {
-  const SceneOptions where{data_root() / "scenes", assets_directory(options_.assets)};
-  std::optional<Scene> scene;
-  std::unique_ptr<Stage> stage;
-  std::unique_ptr<ScenePdfs> shared;
-  Progress progress(cases.front().scene, cases.size());
-  for (const Case& c : cases) {
-    LightsResult result{.id = c.id};
-    const auto failed = [&](const std::string& kind, const std::string& message) {
-      result.status = kind == "asset_missing" ? Status::skipped : Status::failed;
-      result.error = message;
-    };
-    const auto draw_it = [&] {
-      try {
-        if (!scene) scene = load_scene(c.scene, where);
-        if (!stage) stage = std::make_unique<Stage>(device_, kernels_, *scene);
-        if (!shared && config_.measure == Measure::generation) shared = std::make_unique<ScenePdfs>(*stage);
-        draw(*stage, shared.get(), c, &result);
-      } catch (const AssetMissing& e) {
-        failed("asset_missing", e.what());
-      }
-    };
-    progress.label(c.id);
-    guarded("scene", draw_it, failed);
-    progress.advance();
-    results->push_back(std::move(result));
-  }
+LightsRun::Place::Place(LightsRun& run, const std::string& scene_name)
+    : name(scene_name),
+      scene(load_scene(name, {data_root() / "scenes", assets_directory(run.options_.assets)})),
+      stage(run.device_, run.kernels_, scene) {
+  if (run.config_.measure == Measure::generation) pdfs.emplace(stage);
 }
 
-void LightsRun::draw(Stage& stage, ScenePdfs* shared, const Case& c, LightsResult* result) {
+LightsResult LightsRun::run(const Case& c,
+                            const std::function<void(const std::string&, double limit_s)>& begin) {
+  LightsResult result{.id = c.id};
+  const auto failed = [&](ErrorKind kind, const std::string& message) {
+    result.status = kind == ErrorKind::asset_missing ? Status::skipped : Status::failed;
+    result.error = message;
+  };
+  const auto draw_it = [&] {
+    if (!place_ || place_->name != c.scene) {
+      begin("loading the scene", kNoLimit);
+      place_.reset();
+      place_ = std::make_unique<Place>(*this, c.scene);
+    }
+    begin("drawing its lights", config_.time_limit_s);
+    draw(*place_, c, &result);
+  };
+  guarded(draw_it, failed);
+  return result;
+}
+
+void LightsRun::draw(Place& place, const Case& c, LightsResult* result) {
   Case unshaded = c;
   unshaded.frame = without_visibility(c.frame);
   require_memory(device_.info(), unshaded);
-  Frame frame(stage, load_method(c.method, device_.info()), c.method_parameters, unshaded.frame, nullptr);
-  const LightSet lights = make_lights(frame, options_.seed, shared, unshaded.frame);
+  Frame frame(place.stage, load_method(c.method, device_.info()), c.method_parameters, unshaded.frame,
+              nullptr);
+  const LightSet lights =
+      make_lights(frame, options_.seed, place.pdfs ? &*place.pdfs : nullptr, unshaded.frame);
   result->lights = lights.count();
   result->empty = lights.empty();
   result->coverage = coverage_of(lights.shapes, lights.count(), lights.rsm, lights.rsm, lights.pdf);
 
-  const Scene& scene = stage.scene;
+  const Scene& scene = place.scene;
   result->folder = fs::path(file_name(c.scene)) / file_name(c.method) /
                    file_name(c.id.substr(c.scene.size() + c.method.size() + 2));
   const fs::path folder = out_ / result->folder;
@@ -167,7 +156,7 @@ Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& sce
       {"method", c.method},
       {"parameters", c.parameters},
       {"seed", options_.seed},
-      {"kind", kind_name(lights.kind)},
+      {"kind", info_of(lights.lights.kind).name},
       {"count", result.lights},
       {"empty", result.empty}};
   if (result.coverage) json["coverage"] = to_json(*result.coverage);
@@ -182,44 +171,65 @@ std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed
   for (const LightsResult& r : results) {
     const auto& c = r.coverage;
     const auto of = [&](double Coverage::*value) { return c ? std::optional((*c).*value) : std::nullopt; };
-    text += fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", r.id, seed, name(r.status), r.lights, r.empty,
-                        cell(of(&Coverage::overlap)), cell(of(&Coverage::gap)),
-                        cell(c ? c->pdf_overlap : std::nullopt), cell(c ? c->pdf_gap : std::nullopt));
+    text += csv_row(r.id, seed, name(r.status), r.lights, r.empty, cell(of(&Coverage::overlap)),
+                    cell(of(&Coverage::gap)), cell(c ? c->pdf_overlap : std::nullopt),
+                    cell(c ? c->pdf_gap : std::nullopt));
   }
   return text;
 }
 
+// In the worker.
+void draw_cases(const Worker<LightsResult>& worker, const std::vector<Case>& cases,
+                const std::vector<size_t>& left, const LightsOptions& options, const Config& config,
+                const fs::path& out) {
+  LightsRun run(options, config, out);
+  Progress progress(config.name, left.size());
+  for (const size_t job : left) {
+    progress.label(cases[job].id);
+    worker.done(job, run.run(cases[job], [&](const std::string& action, double limit_s) {
+      worker.now({job, action, limit_s});
+    }));
+    progress.advance();
+  }
+}
+
 }  // namespace
 
-std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted) {
-  if (wanted.empty()) return cases;
-  std::vector<const Case*> named;
-  for (const auto& name : wanted) named.push_back(&select_case(cases, name));
-  std::vector<Case> out;
-  for (const Case& c : cases) {
-    if (std::find(named.begin(), named.end(), &c) != named.end()) out.push_back(c);
-  }
-  return out;
+Json to_json(const LightsResult& result) {
+  Json json = {{"id", result.id},         {"status", static_cast<int>(result.status)},
+               {"error", result.error},   {"folder", result.folder.string()},
+               {"lights", result.lights}, {"empty", result.empty}};
+  if (result.coverage) json["coverage"] = to_json(*result.coverage);
+  return json;
+}
+
+void from_json(const Json& json, LightsResult* result) {
+  result->id = json.at("id");
+  result->status = json.at("status").get<Status>();
+  result->error = json.at("error");
+  result->folder = json.at("folder").get<std::string>();
+  result->lights = json.at("lights");
+  result->empty = json.at("empty");
+  if (!json.contains("coverage")) return;
+  const Json& c = json["coverage"];
+  result->coverage = Coverage{.overlap = c.at("overlap"), .gap = c.at("gap")};
+  if (!c.contains("pdf_gap")) return;
+  result->coverage->pdf_overlap = c.at("pdf_overlap").get<double>();
+  result->coverage->pdf_gap = c.at("pdf_gap").get<double>();
 }
 
 LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters) {
   frame.render_direct();  // draws the halves
   LightSet set;
-  set.kind = frame.light_kind();
   set.rsm = parameters.rsm;
   const uint64_t texels = uint64_t(set.rsm) * set.rsm;
-  const bool uses_pdf = !frame.importance().empty();
+  const bool uses_pdf = frame.uses_importance();
   KeptPdfs own;
   if (uses_pdf && !shared) own = frame.prepare(seed);
   const KeptPdfs& pdfs = uses_pdf && shared ? shared->get(parameters) : own;
   frame.generate_only(seed, pdfs);
-  const LightHealth health = frame.light_health();
-  if (!health.first_bad_pass.empty()) {
-    throw fail(ErrorKind::case_failed, "{} lights with a NaN and {} with an Inf, the first is light {} of {}",
-               health.nan, health.inf, health.first_bad, health.first_bad_pass);
-  }
-  set.vsgls = frame.vsgls();
-  set.vpls = frame.vpls();
+  if (const auto bad = frame.results().bad_values()) throw fail(ErrorKind::case_failed, "{}", bad->message());
+  set.lights = frame.results().lights();
   set.shapes = read_shapes(frame.light_shapes(), set.count(), texels);
   if (uses_pdf) set.pdf = pdfs.rsm.download<float>(texels);
   return set;
@@ -227,18 +237,29 @@ LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const Frame
 
 std::vector<LightsResult> run_lights(const LightsOptions& options) {
   const Config config = load_config(options.config);
-  const std::vector<Case> cases = select_cases(config.cases, options.cases);
+  const std::vector<Case> cases = select_cases(config.cases, options.cases, "--case");
   const fs::path out =
       fs::absolute(options.out.empty() ? fs::path("reports") / "out" / config.name / "lights" : options.out);
   ensure_writable_directory(out);
-  LightsRun run(options, config, out);
   std::vector<LightsResult> results;
-  for (auto first = cases.begin(); first != cases.end();) {
-    const auto last =
-        std::find_if(first, cases.end(), [&](const Case& c) { return c.scene != first->scene; });
-    run.run({first, last}, &results);
-    first = last;
-  }
+  const auto take = [&](const LightsResult& result) { results.push_back(result); };
+  supervise<LightsResult>(
+      {.name = config.name,
+       .jobs = cases.size(),
+       .work =
+           [&](const Worker<LightsResult>& worker, const std::vector<size_t>& left) {
+             draw_cases(worker, cases, left, options, config, out);
+           },
+       .told = take,
+       .lost =
+           [&](size_t job, const End& end) {
+             if (end.kind == ErrorKind::device && results.empty()) throw Error(end.kind, end.how);
+             take({.id = cases[job].id, .status = Status::failed, .error = one_line(end.message())});
+           },
+       .died =
+           [&](const End& end) {
+             log_warning("{}: {}", end.task.job ? cases[*end.task.job].id : config.name, end.message());
+           }});
   write_text(out / "coverage.csv", coverage_csv(results, options.seed));
   return results;
 }

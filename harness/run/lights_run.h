@@ -19,8 +19,8 @@ struct LightsOptions {
   std::filesystem::path config;
   std::filesystem::path out;       // empty: reports/out/<name of the config>/lights
   std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
-  std::vector<std::string> cases;  // ids, or a part that one id alone has; empty: all
-  std::string device;              // index or part of a name; empty: the first usable
+  std::vector<std::string> cases;  // globs over their ids; empty: all
+  std::string device;              // as in select_device()
   uint32_t seed = 0;
   bool csv = false;  // lights.csv instead of lights.json
   std::vector<std::string> argv;
@@ -36,9 +36,9 @@ struct LightsResult {
   std::optional<Coverage> coverage;
 };
 
-// Each of `wanted` as the one case it names, in the order of `cases`, once. Throws Error(usage) for one that
-// is part of no id, naming the nearest, or of several.
-std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& wanted);
+// As messages of the process that draws.
+Json to_json(const LightsResult& result);
+void from_json(const Json& json, LightsResult* result);
 
 // The lights that a frame of this seed has, of the first iteration where the case has several. With `shared`
 // they are drawn from those PDFs, as a run that measures generation alone does; else from the case's own.
@@ -46,8 +46,10 @@ std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector
 // Inf.
 LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters);
 
-// Draws and writes each case, and a row for each in coverage.csv. A case that fails, or whose scene is not on
-// this machine, costs itself. Throws Error for what stops all: config, cases, output folder, device.
+// Draws and writes each case, and a row for each in coverage.csv. A case that fails, crashes or
+// hangs (Config::time_limit_s), or whose scene is not on this machine, costs itself. For a process without
+// threads and without a Vulkan device: it forks. Throws Error for what stops all: config, cases, output
+// folder, device.
 std::vector<LightsResult> run_lights(const LightsOptions& options);
 
 }  // namespace vsglbench

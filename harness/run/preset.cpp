@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
+#include "run/case_keys.h"
+#include "run/config.h"
 
 namespace fs = std::filesystem;
 
@@ -12,6 +14,16 @@ namespace vsglbench {
 namespace {
 
 fs::path folder() { return data_root() / "configs" / "presets"; }
+
+// That of a config's keys, as far as a preset may have them; whatever else it holds is a method's own
+// parameter.
+Json preset_schema() {
+  Json schema = {{"type", "object"}, {"properties", Json::object()}};
+  std::vector<std::string> keys = case_key_names();
+  keys.insert(keys.end(), {"description", "frame", "ism"});
+  for (const auto& key : keys) schema["properties"][key] = config_schema().at("properties").at(key);
+  return schema;
+}
 
 }  // namespace
 
@@ -30,9 +42,13 @@ Json load_preset(const std::string& name) {
   const auto names = preset_names();
   if (std::ranges::count(names, name) == 0)
     throw fail(ErrorKind::config, "no preset '{}'{}", name, suggestion(name, names));
-  Json keys = JsonDocument::load(folder() / (name + ".json"), ErrorKind::config).root();
-  if (!keys.is_object())
-    throw fail(ErrorKind::config, "{}: must be an object", (folder() / (name + ".json")).string());
+  return read_preset(folder() / (name + ".json"));
+}
+
+Json read_preset(const fs::path& file) {
+  const JsonDocument doc = JsonDocument::load(file, ErrorKind::config);
+  check_schema(doc, preset_schema());
+  Json keys = doc.root();
   keys.erase("description");
   return keys;
 }

@@ -69,6 +69,11 @@ std::string end_of_search(const ReferenceResult& result, const ReferenceParamete
                                                       : "");
 }
 
+std::string rounding_of(const ReferenceResult& result, const ReferenceParameters& p) {
+  if (p.floor > 0 || result.samples == p.samples) return "";
+  return fmt::format(" ({} asked for, rounded up to {} equal batches)", p.samples, result.batches);
+}
+
 const ReferenceResult& References::get(const Case& c) { return *slot(c).result; }
 const ReferenceInfo& References::info(const Case& c) { return *slot(c).info; }
 
@@ -108,10 +113,11 @@ ReferenceResult References::obtain(const Case& c, bool occlusion) {
                   [](const glm::vec3& v) { return v == glm::vec3(0); })) {
     throw fail(ErrorKind::case_failed, "no indirect light reaches the view: the reference is black");
   }
-  log_info("{}: reference{} of {} samples {} ({}), noise floor {:.2f} % SMAPE, its mean known to {:.2f} %{}",
-           scene_.name, occlusion ? "" : " without occlusion", result.samples,
-           cached ? "from the cache" : "computed", format_duration(watch.seconds()), result.noise_floor_smape,
-           100 * result.standard_error, end_of_search(result, p));
+  log_info(
+      "{}: reference{} of {} samples{} {} ({}), noise floor {:.2f} % SMAPE, its mean known to {:.2f} %{}",
+      scene_.name, occlusion ? "" : " without occlusion", result.samples, rounding_of(result, p),
+      cached ? "from the cache" : "computed", format_duration(watch.seconds()), result.noise_floor_smape,
+      100 * result.standard_error, end_of_search(result, p));
   return result;
 }
 

@@ -16,6 +16,9 @@ namespace vsglbench {
 // ", reached 2 %" or ", ended before 2 % by the limit of 600 s"; nothing where no floor was asked for.
 std::string end_of_search(const ReferenceResult& result, const ReferenceParameters& parameters);
 
+// " (100 asked for, rounded up to 16 equal batches)"; nothing where it is what was asked for, or a floor was.
+std::string rounding_of(const ReferenceResult& result, const ReferenceParameters& parameters);
+
 // By frame size and occlusion: `none` is compared without occlusion between the bounces, all else with it.
 class References {
  public:

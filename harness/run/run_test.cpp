@@ -40,18 +40,18 @@ const CaseResult& find(const Report& report, const std::string& id) {
 }
 
 void expect_passes(const CaseResult& c, bool has_importance) {
-  std::vector<std::string> names;
-  for (const auto& pass : c.passes) {
-    names.push_back(pass.name);
-    EXPECT_EQ(pass.ms.samples.size(), c.frame->span.samples.size()) << c.id << ' ' << pass.name;
-  }
-  const auto has = [&](const std::string& prefix) {
-    return std::any_of(names.begin(), names.end(), [&](const auto& n) { return n.starts_with(prefix); });
+  for (const auto& [pass, ms] : c.passes)
+    EXPECT_EQ(ms.samples.size(), c.frame->span.samples.size()) << c.id << ' ' << pass.name();
+  const auto has = [&](PassStage stage, std::optional<Half> half) {
+    return std::ranges::any_of(c.passes, [&](const PassTiming& p) {
+      return p.pass.stage == stage && (!half || p.pass.half == half);
+    });
   };
-  for (const char* name : {"gbuffer", "rsm", "generate.rsm.", "shade"})
-    EXPECT_TRUE(has(name)) << c.id << ' ' << name;
-  EXPECT_EQ(has("importance."), has_importance) << c.id;
-  EXPECT_EQ(has("generate.gbuffer."), has_importance) << c.id;
+  for (const Half half : {Half::gbuffer, Half::rsm}) EXPECT_TRUE(has(PassStage::draw, half)) << c.id;
+  EXPECT_TRUE(has(PassStage::generate, Half::rsm)) << c.id;
+  EXPECT_TRUE(has(PassStage::shade, {})) << c.id;
+  EXPECT_EQ(has(PassStage::importance, {}), has_importance) << c.id;
+  EXPECT_EQ(has(PassStage::generate, Half::gbuffer), has_importance) << c.id;
 }
 
 TEST_F(RunTest, WritesAReportThatHoldsEverything) {

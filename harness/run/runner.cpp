@@ -1,7 +1,5 @@
 #include "run/runner.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <set>
@@ -15,6 +13,7 @@
 #include "report/accuracy_notes.h"
 #include "report/environment.h"
 #include "run/case_run.h"
+#include "run/overrides.h"
 #include "run/report_store.h"
 #include "run/scene_workers.h"
 
@@ -24,21 +23,9 @@ namespace vsglbench {
 namespace {
 
 Config read_config(const RunOptions& options) {
-  Config config = load_config(options.config);
+  Config config = load_config(options.config, parse_overrides(options.set));
   for (Case& c : config.cases) c.frame.check_passes = options.check_passes;
   return config;
-}
-
-std::vector<Case> select(const Config& config, const std::string& only) {
-  std::vector<Case> cases;
-  for (const Case& c : config.cases) {
-    if (only.empty() || ::fnmatch(only.c_str(), c.id.c_str(), 0) == 0) cases.push_back(c);
-  }
-  if (cases.empty()) {
-    throw fail(ErrorKind::usage, "--only '{}' matches none of the {} cases, such as {}", only,
-               config.cases.size(), config.cases.front().id);
-  }
-  return cases;
 }
 
 std::vector<Case> of_scene(const std::vector<Case>& cases, const std::string& scene) {
@@ -50,7 +37,7 @@ std::vector<Case> of_scene(const std::vector<Case>& cases, const std::string& sc
 
 // A scene whose asset was absent, or a case that no device was left for, is tried again.
 bool is_final(const CaseResult& r) {
-  return r.status != Status::skipped && !(r.error && r.error->kind == "device");
+  return r.status != Status::skipped && !(r.error && r.error->kind == ErrorKind::device);
 }
 
 // Whether an interrupted run left nothing to do.
@@ -91,7 +78,8 @@ void refuse_invalid(CaseResult* result) {
   failed.measure = result->measure;
   failed.parameters = result->parameters;
   failed.status = Status::failed;
-  failed.error = CaseError{"internal", one_line("no report takes its result: " + violations.front())};
+  failed.error =
+      CaseError{ErrorKind::internal, one_line("no report takes its result: " + violations.front())};
   *result = std::move(failed);
 }
 
@@ -142,7 +130,8 @@ Report fresh_report(const RunOptions& options, const Config& config, const Devic
 int exit_code(const RunOutcome& outcome, bool device_gone) {
   const bool failed = std::any_of(outcome.report.cases.begin(), outcome.report.cases.end(),
                                   [](const CaseResult& c) { return c.status == Status::failed; });
-  return device_gone ? 3 : failed || !outcome.validation_messages.empty() ? 1 : 0;
+  if (device_gone) return exit_code(ErrorKind::device);
+  return failed || !outcome.validation_messages.empty() ? exit_code(ErrorKind::case_failed) : 0;
 }
 
 WorkerOptions worker_options(const RunOptions& options, const Config& config, ReportStore& store) {
@@ -167,7 +156,8 @@ fs::path assets_directory(const fs::path& given) {
 RunOutcome run_config(const RunOptions& options) {
   const Stopwatch watch;
   const Config config = read_config(options);
-  const std::vector<Case> cases = select(config, options.only);
+  const std::vector<std::string> globs(options.only.empty() ? 0 : 1, options.only);
+  const std::vector<Case> cases = select_cases(config.cases, globs, "--only");
   ReportStore store(options.out.empty() ? fs::path("reports") / "out" / config.name : options.out);
   const WorkerOptions workers = worker_options(options, config, store);
   const DeviceReport device = probe_device(workers);
@@ -201,7 +191,8 @@ RunOutcome run_config(const RunOptions& options) {
       const bool aa = !options.check_passes && !done.aa;
       run_scene_in_workers(scene, config, wanted, aa, workers, save_so_far, &done, &log);
     } else {
-      for (auto& result : failed_cases(wanted, config, "device", "the device was lost in an earlier scene"))
+      for (auto& result :
+           failed_cases(wanted, config, ErrorKind::device, "the device was lost in an earlier scene"))
         done.cases.push_back(result);
     }
     add(std::move(done), wanted, &report);

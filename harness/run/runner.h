@@ -15,7 +15,8 @@ struct RunOptions {
   std::filesystem::path out;     // empty: reports/out/<name of the config>
   std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
   std::string only;              // glob over case ids; empty: all
-  std::string device;            // index or part of a name; empty: the first usable
+  std::vector<std::string> set;  // "KEY=VALUE", in place of what the config says
+  std::string device;            // as in select_device()
   bool force = false;            // measure again what an interrupted run had finished
   bool validation = false;       // with the validation layers; a message fails the run
   bool check_passes = false;     // every pass by itself, its outputs looked at: FrameParameters::check_passes

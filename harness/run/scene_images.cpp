@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 #include "base/hash.h"
@@ -64,7 +65,22 @@ std::vector<std::string> settings_of(const CaseResult& c) {
   return settings;
 }
 
+// "   method 2023 ms": of all passes that a method answers for, else of the frame.
+std::string time_of(const CaseResult& c) {
+  if (!c.frame) return "";
+  const double ms = (c.frame->method ? *c.frame->method : c.frame->span).median;
+  return fmt::format("   {} {} ms", c.frame->method ? "method" : "frame",
+                     ms < 1000 ? fmt::format("{:.3g}", ms) : fmt::format("{:.0f}", ms));
+}
+
 bool has_image(const CaseResult& c) { return c.images.contains("indirect"); }
+
+// The pages of an earlier run, which may have had more.
+void remove_sheet(const fs::path& folder) {
+  std::error_code ec;
+  fs::remove(folder / "contact.png", ec);
+  for (size_t page = 0; fs::remove(folder / (page_name("contact", page, 2) + ".png"), ec);) ++page;
+}
 
 // A case with another reference than the one shown carries its own.
 ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases, const SceneReport& scene,
@@ -73,13 +89,13 @@ ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases,
   ContactSheet sheet;
   sheet.title = fmt::format("{}: one-bounce indirect light   {}", scene.name, captions.shared);
   sheet.reference = shown.mean;
-  sheet.reference_detail = fmt::format("{} samples\nfloor: SMAPE {:.2f}% RMSE {:.2g}", shown.samples,
+  sheet.reference_detail = fmt::format("{} samples\nfloor: SMAPE {:.2f} %   RMSE {:.2g}", shown.samples,
                                        info.noise_floor_smape, info.noise_floor_rmse.value_or(0));
   sheet.mask = shown.mask;
   sheet.exposure = static_cast<float>(scene.exposure);
-  for (size_t i = 0; i < cases.size(); ++i) {
+  for (const size_t i : sheet_order(cases)) {
     const CaseResult& c = cases[i];
-    ContactEntry entry{captions.cases[i], errors_of(c), std::nullopt, std::nullopt};
+    ContactEntry entry{captions.cases[i], figures_of(c), std::nullopt, std::nullopt};
     if (has_image(c)) entry.image = read_exr(out / c.images.at("indirect"));
     if (has_image(c) && c.accuracy && c.accuracy->reference.hash != shown.hash)
       entry.reference = read_exr(out / c.images.at("reference"));
@@ -91,16 +107,28 @@ ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases,
 }  // namespace
 
 // Medians of heavy-tailed seeds: the sheet has no room for ranges.
-std::string errors_of(const CaseResult& c) {
+std::string figures_of(const CaseResult& c) {
   if (c.status != Status::ok) return c.error ? c.error->message : "failed";
   const auto number = [](const MetricResult& m, double scale, const char* format) {
     if (!m.value) return std::string("undefined");
     return fmt::format(fmt::runtime(format), scale * (m.heavy_tailed ? *m.median : *m.value));
   };
   const Accuracy& a = *c.accuracy;
-  return fmt::format("SMAPE {} lit {} RMSE {}\nbias {} FLIP {}", number(a.smape, 1, "{:.3g}%"),
-                     number(a.smape_lit, 1, "{:.3g}%"), number(a.rmse, 1, "{:.3g}"),
-                     number(a.bias, 100, "{:+.3g}%"), number(a.flip, 1, "{:.3f}"));
+  return fmt::format("SMAPE {}   lit {}   RMSE {}\nbias {}   FLIP {}{}", number(a.smape, 1, "{:.3g} %"),
+                     number(a.smape_lit, 1, "{:.3g} %"), number(a.rmse, 1, "{:.3g}"),
+                     number(a.bias, 100, "{:+.3g} %"), number(a.flip, 1, "{:.3f}"), time_of(c));
+}
+
+std::vector<size_t> sheet_order(const std::vector<CaseResult>& cases) {
+  std::vector<size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto key = [&](size_t i) {
+    const auto lights = cases[i].parameters.find("N");
+    const bool counted = lights != cases[i].parameters.end() && lights->is_number();
+    return std::pair(cases[i].method, counted ? lights->get<double>() : 0.0);
+  };
+  std::ranges::stable_sort(order, {}, key);
+  return order;
 }
 
 std::string file_name(const std::string& name) {
@@ -145,41 +173,44 @@ void SceneImages::write(CaseRun& run, CaseResult* result) {
   if (!run.image()) return;
   if (!exposed_) scene_->exposure = auto_exposure(run.reference()->mean, run.reference()->mask);
   exposed_ = true;
-  const auto failed = [&](const std::string& kind, const std::string& message) {
+  const auto failed = [&](ErrorKind kind, const std::string& message) {
     if (result->status == Status::ok) result->error = CaseError{kind, message};
     if (result->status == Status::ok) result->status = Status::failed;
   };
-  guarded(
-      "output", [&] { write_case(out_, run, static_cast<float>(scene_->exposure), result); }, failed);
+  guarded([&] { write_case(out_, run, static_cast<float>(scene_->exposure), result); }, failed);
   if (!direct_ && run.frame()) write_direct(*run.frame());
 }
 
 void SceneImages::write_direct(Frame& frame) {
   direct_ = true;
-  const auto warn = [&](const std::string&, const std::string& message) {
+  const auto warn = [&](ErrorKind, const std::string& message) {
     log_warning("{}: {}", scene_->name, message);
   };
   guarded(
-      "output",
       [&] {
-        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(), frame.surface_mask(),
-                   static_cast<float>(scene_->exposure));
+        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(),
+                   frame.results().surface_mask(), static_cast<float>(scene_->exposure));
       },
       warn);
 }
 
 void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown,
                               const ReferenceInfo& info) {
-  const auto warn = [&](const std::string&, const std::string& message) {
+  const auto warn = [&](ErrorKind, const std::string& message) {
     log_warning("{}: {}", scene_->name, message);
   };
   const auto write_it = [&] {
-    const std::string path = folder_of(scene_->name) + "/contact.png";
-    write_png(out_ / path, contact_sheet(sheet_of(out_, cases, *scene_, shown, info)));
-    scene_->contact = path;
-    log_info("contact sheet: {}", (out_ / path).string());
+    const std::string folder = folder_of(scene_->name);
+    const auto pages = contact_pages(sheet_of(out_, cases, *scene_, shown, info));
+    remove_sheet(out_ / folder);
+    for (size_t i = 0; i < pages.size(); ++i) {
+      const std::string path = fmt::format("{}/{}.png", folder, page_name("contact", i, pages.size()));
+      write_png(out_ / path, pages[i]);
+      if (i == 0) scene_->contact = path;
+      log_info("contact sheet: {}", (out_ / path).string());
+    }
   };
-  guarded("output", write_it, warn);
+  guarded(write_it, warn);
 }
 
 }  // namespace vsglbench

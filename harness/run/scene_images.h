@@ -1,5 +1,5 @@
 // The pictures of one scene: EXR and PNG of every case, error maps, references, direct light, the contact
-// sheet.
+// sheet's pages.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,12 @@ namespace vsglbench {
 // meet.
 std::string file_name(const std::string& name);
 
-// "SMAPE 24.84 %  lit 21.02 %  RMSE 0.0155", and in a second line "bias -19.93 %  FLIP 0.12", or why there
-// are no errors.
-std::string errors_of(const CaseResult& c);
+// "SMAPE 24.8 %   lit 21 %   RMSE 0.0155", and in a second line "bias −19.9 %   FLIP 0.12   method 41.5 ms",
+// or why there are no errors.
+std::string figures_of(const CaseResult& c);
+
+// The cases' order on a contact sheet, as indices: by method, then N, then as the config has them.
+std::vector<size_t> sheet_order(const std::vector<CaseResult>& cases);
 
 // What a contact sheet says of the cases of one scene: each one's method with those "KEY=VALUE" of its id
 // that not all cases have, such as "mfis N=64"; and those that they all have.
@@ -28,7 +31,7 @@ struct Captions {
 Captions captions_of(const std::vector<CaseResult>& cases);
 
 // Writes to out/images/<scene>/, every case as soon as it is measured: what is on the disk survives whatever
-// a later case does. Nothing here throws but Error(device).
+// a later case does. Nothing here throws but Error(device_lost).
 class SceneImages {
  public:
   // `earlier`: cases of the scene that another process has measured. Notes exposure and contact sheet in
@@ -40,8 +43,8 @@ class SceneImages {
   // its numbers. A case without an image is left alone.
   void write(CaseRun& run, CaseResult* result);
 
-  // The contact sheet of all cases, from what was written; without it there is a warning. `shown`: the
-  // reference of the first case that has an image.
+  // The contact sheet of all cases, from what was written, as contact.png or, of several pages, contact-1.png
+  // and so on; without it there is a warning. `shown`: the reference of the first case that has an image.
   void write_sheet(const std::vector<CaseResult>& cases, const ReferenceResult& shown,
                    const ReferenceInfo& info);
 

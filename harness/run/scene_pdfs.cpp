@@ -11,7 +11,7 @@ const KeptPdfs& ScenePdfs::get(const FrameParameters& parameters) {
   FrameParameters p = parameters;
   p.lights = 1;  // makes no difference to the PDFs
   p.visibility = Visibility::none;
-  const MethodInfo& maker = load_method(kMaker, stage_.device.info());
+  const MethodInfo& maker = load_method(ScenePdfs::maker().name, stage_.device.info());
   Frame frame(stage_, maker, resolve_parameters(maker, Json::object()), p, nullptr);
   return made_.emplace(key, frame.prepare(0)).first->second;
 }

@@ -5,14 +5,15 @@
 #include <tuple>
 
 #include "frame/frame.h"
+#include "method/registry.h"
 
 namespace vsglbench {
 
 // Every case is timed on the same PDFs, whoever would make which in a whole frame: what differs between two
-// times is then the methods' own. They are made by mfis with seed 0, outside any timing.
+// times is then the methods' own. They are made by maker() with seed 0, outside any timing.
 class ScenePdfs {
  public:
-  static constexpr const char* kMaker = "mfis";
+  static const MethodInfo& maker() { return find_importance_maker(LightKind::vsgl); }  // perhaps not loaded
   explicit ScenePdfs(Stage& stage) : stage_(stage) {}
   // Throws Error for sizes that the device can't take.
   const KeptPdfs& get(const FrameParameters& parameters);

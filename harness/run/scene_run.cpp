@@ -122,11 +122,8 @@ CaseInput SceneRun::input_of(CaseRun& run) {
 CaseRun& SceneRun::open(const Case& c) {
   CaseRun& run =
       runs_.emplace_back(c, config_, wall_, [this](const Activity& activity) { observer_.now(activity); });
-  const auto failed = [&](const std::string& kind, const std::string& message) {
-    run.fail_with(kind, message);
-  };
+  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
   guarded(
-      "config",
       [&] {
         require_memory(stage_.device.info(), c, kept_bytes_);
         run.open(stage_, input_of(run));
@@ -241,8 +238,8 @@ void SceneRun::draw_sheet() {
 
 std::string twin_id(const std::string& case_id) { return case_id + " (A/A twin)"; }
 
-std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config,
-                                     const std::string& kind, const std::string& message) {
+std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config, ErrorKind kind,
+                                     const std::string& message) {
   std::vector<CaseResult> results;
   for (const Case& c : cases) {
     WallTime none;
@@ -264,29 +261,25 @@ void sort_like(const std::vector<Case>& cases, std::vector<CaseResult>* results)
 void run_scene(Device& device, KernelLibrary& kernels, const std::string& name, const Config& config,
                const std::vector<Case>& cases, const SceneOutcome& earlier, const SceneRunOptions& options,
                SceneObserver& observer, WallTime* wall) {
-  const auto failed = [&](const std::string& kind, const std::string& message) {
+  const auto failed = [&](ErrorKind kind, const std::string& message) {
     for (const auto& result : failed_cases(cases, config, kind, message)) observer.concluded(result);
   };
   const auto run = [&] {
-    try {
-      observer.now({"", "loading the scene", false});
-      const Scene scene = load_scene(name, options.scenes);
-      SceneReport report = describe(scene, name);
-      if (earlier.scene && earlier.scene->hash != report.hash) {
-        throw fail(ErrorKind::scene,
-                   "{}: the scene has changed since its first cases were measured; start anew with --force",
-                   name);
-      }
-      if (earlier.scene) report = *earlier.scene;
-      log_info("{}: {} triangles", name, scene.triangles.size());
-      for (const auto& warning : scene.warnings) log_warning("{}: {}", name, warning);
-      observer.described(report);
-      SceneRun(device, kernels, scene, config, report, earlier, options, observer, wall).run(cases);
-    } catch (const AssetMissing& e) {
-      failed("asset_missing", e.what());
+    observer.now({"", "loading the scene", false});
+    const Scene scene = load_scene(name, options.scenes);
+    SceneReport report = describe(scene, name);
+    if (earlier.scene && earlier.scene->hash != report.hash) {
+      throw fail(ErrorKind::scene,
+                 "{}: the scene has changed since its first cases were measured; start anew with --force",
+                 name);
     }
+    if (earlier.scene) report = *earlier.scene;
+    log_info("{}: {} triangles", name, scene.triangles.size());
+    for (const auto& warning : scene.warnings) log_warning("{}: {}", name, warning);
+    observer.described(report);
+    SceneRun(device, kernels, scene, config, report, earlier, options, observer, wall).run(cases);
   };
-  guarded("scene", run, failed);
+  guarded(run, failed);
 }
 
 }  // namespace vsglbench

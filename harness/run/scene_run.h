@@ -37,15 +37,15 @@ struct SceneRunOptions {
 std::string twin_id(const std::string& case_id);
 
 // Concludes each of `cases`; then the contact sheet, which shows those of `earlier`, too: cases that another
-// process has measured. Throws Error(device) when the device is lost; whatever else is wrong with a case or
-// with the scene is in the results.
+// process has measured. Throws Error(device_lost) when the device is lost; whatever else is wrong with a case
+// or with the scene is in the results.
 void run_scene(Device& device, KernelLibrary& kernels, const std::string& scene, const Config& config,
                const std::vector<Case>& cases, const SceneOutcome& earlier, const SceneRunOptions& options,
                SceneObserver& observer, WallTime* wall);
 
 // Cases that were not run, all for the same reason.
-std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config,
-                                     const std::string& kind, const std::string& message);
+std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config, ErrorKind kind,
+                                     const std::string& message);
 
 // `results` in the order of the experiment's cases.
 void sort_like(const std::vector<Case>& cases, std::vector<CaseResult>* results);

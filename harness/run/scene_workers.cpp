@@ -1,17 +1,66 @@
 #include "run/scene_workers.h"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 
-#include "base/child.h"
-#include "base/error.h"
 #include "base/log.h"
+#include "base/supervise.h"
 
 namespace vsglbench {
 namespace {
+
+void add(const WallTime& more, WallTime* sum) {
+  sum->device_s += more.device_s;
+  sum->references_s += more.references_s;
+  sum->visibility_s += more.visibility_s;
+  sum->compilation_s += more.compilation_s;
+}
+
+bool has_result(const SceneOutcome& outcome, const std::string& id) {
+  return std::any_of(outcome.cases.begin(), outcome.cases.end(),
+                     [&](const CaseResult& r) { return r.id == id; });
+}
+
+// What is left to do of a scene: these cases, the contact sheet and, last, the A/A pair.
+struct Jobs {
+  const std::vector<Case>& cases;
+  bool aa;
+  size_t sheet() const { return cases.size(); }
+  size_t twin() const { return cases.size() + 1; }
+  size_t count() const { return cases.size() + (aa ? 2 : 1); }
+  std::optional<size_t> of(const std::string& case_id) const {
+    if (case_id.empty()) return std::nullopt;
+    const auto same = [&](const Case& c) { return c.id == case_id; };
+    const auto found = std::find_if(cases.begin(), cases.end(), same);
+    return found == cases.end() ? twin() : static_cast<size_t>(found - cases.begin());
+  }
+};
+
+// What a worker tells: what has become known, with the time that it has spent so far, and what the validation
+// layers have said since its last message.
+struct SceneNews {
+  std::optional<SceneReport> scene;
+  std::optional<CaseResult> result;
+  std::optional<AaPair> aa;
+  WallTime wall;
+  std::vector<std::string> validation;
+};
+
+Json to_json(const SceneNews& news) {
+  Json json = {{"wall", part_to_json(news.wall)}, {"validation", news.validation}};
+  if (news.scene) json["scene"] = part_to_json(*news.scene);
+  if (news.result) json["case"] = part_to_json(*news.result);
+  if (news.aa) json["aa"] = part_to_json(*news.aa);
+  return json;
+}
+
+void from_json(const Json& json, SceneNews* news) {
+  news->wall = part_from_json<WallTime>(json.at("wall"));
+  news->validation = json.at("validation");
+  if (json.contains("scene")) news->scene = part_from_json<SceneReport>(json["scene"]);
+  if (json.contains("case")) news->result = part_from_json<CaseResult>(json["case"]);
+  if (json.contains("aa")) news->aa = part_from_json<AaPair>(json["aa"]);
+}
 
 // --- in the worker ---
 
@@ -30,232 +79,179 @@ DeviceReport describe(const DeviceInfo& info) {
   return d;
 }
 
-// Ctrl-C is the parent's to answer; when it ends so does this process.
-void become_worker(const WorkerOptions& options) {
-  ::signal(SIGINT, SIG_IGN);
-  ::signal(SIGTERM, SIG_IGN);
-  if (options.detach) options.detach();
-}
-
-// Tells the parent, every time with what the validation layers have said and the time that was spent.
+// Tells the caller, and blames each action on its case.
 class Reporter : public SceneObserver {
  public:
-  Reporter(const ToParent& parent, const Device& device, const Announce& sabotage)
-      : parent_(parent), device_(device), sabotage_(sabotage) {}
+  Reporter(const Worker<SceneNews>& worker, const Jobs& jobs, const WorkerOptions& options,
+           const Device& device)
+      : worker_(worker), jobs_(jobs), options_(options), device_(device) {}
 
   void now(const Activity& a) override {
-    send({{"activity", {{"case", a.case_id}, {"action", a.action}, {"limited", a.limited}}}});
-    if (sabotage_) sabotage_(a);
+    worker_.now({jobs_.of(a.case_id), a.action, a.limited ? options_.time_limit_s : kNoLimit}, news());
+    if (options_.sabotage) options_.sabotage(a);
   }
-  void described(const SceneReport& scene) override { send({{"scene", part_to_json(scene)}}); }
-  void concluded(const CaseResult& result) override { send({{"case", part_to_json(result)}}); }
-  void paired(const AaPair& pair) override { send({{"aa", part_to_json(pair)}}); }
-
-  void send(Json message) {
-    message["wall"] = part_to_json(wall);
-    const auto& messages = device_.validation_messages();
-    for (; told_ < messages.size(); ++told_) message["validation"].push_back(messages[told_]);
-    parent_.send(message);
+  void described(const SceneReport& scene) override {
+    SceneNews n = news();
+    n.scene = scene;
+    worker_.tell(n);
   }
+  void concluded(const CaseResult& result) override {
+    SceneNews n = news();
+    n.result = result;
+    worker_.done(*jobs_.of(result.id), n);
+  }
+  void paired(const AaPair& pair) override {
+    SceneNews n = news();
+    n.aa = pair;
+    worker_.done(jobs_.twin(), n);
+  }
+  void finished() { worker_.done(jobs_.sheet(), news()); }
 
   WallTime wall;
 
  private:
-  const ToParent& parent_;
+  SceneNews news() {
+    SceneNews n{.wall = wall};
+    const auto& messages = device_.validation_messages();
+    n.validation.assign(messages.begin() + static_cast<ptrdiff_t>(told_), messages.end());
+    told_ = messages.size();
+    return n;
+  }
+
+  const Worker<SceneNews>& worker_;
+  const Jobs& jobs_;
+  const WorkerOptions& options_;
   const Device& device_;
-  const Announce& sabotage_;
   size_t told_ = 0;  // validation messages
 };
 
-void work(const ToParent& parent, const std::string& scene, const Config& config,
-          const std::vector<Case>& cases, bool aa, const WorkerOptions& options,
+// Whether only the contact sheet is missing.
+bool is_undrawn(const SceneOutcome& outcome) {
+  return outcome.scene && outcome.scene->contact.empty() &&
+         std::any_of(outcome.cases.begin(), outcome.cases.end(),
+                     [](const CaseResult& c) { return !c.images.empty(); });
+}
+
+void work(const Worker<SceneNews>& worker, const std::vector<size_t>& left, const Jobs& jobs,
+          const std::string& scene, const Config& config, const WorkerOptions& options,
           const SceneOutcome& earlier) {
-  become_worker(options);
-  std::unique_ptr<Device> device;
-  try {
-    device = std::make_unique<Device>(options.device);
-  } catch (const Error& e) {
-    return parent.send({{"no_device", one_line(e.what())}});
-  }
-  Reporter reporter(parent, *device, options.sabotage);
-  try {
-    KernelLibrary kernels(*device);
-    run_scene(*device, kernels, scene, config, cases, earlier, {options.scenes, options.out, aa}, reporter,
-              &reporter.wall);
-    reporter.send({{"done", true}});
-  } catch (const Error& e) {
-    reporter.send({{"device_lost", one_line(e.what())}});
-  }
+  if (options.detach) options.detach();
+  std::vector<Case> cases;
+  for (const size_t job : left)
+    if (job < jobs.cases.size()) cases.push_back(jobs.cases[job]);
+  if (cases.empty() && !is_undrawn(earlier)) return;
+  const bool aa = std::count(left.begin(), left.end(), jobs.twin()) > 0;
+  Device device(options.device);
+  Reporter reporter(worker, jobs, options, device);
+  KernelLibrary kernels(device);
+  run_scene(device, kernels, scene, config, cases, earlier, {options.scenes, options.out, aa}, reporter,
+            &reporter.wall);
+  reporter.finished();
 }
 
-// --- in the parent ---
+// --- in the caller ---
 
-constexpr const char* kStarting = "starting";  // until a worker says more
-constexpr double kForEver = std::numeric_limits<double>::infinity();
-
-void add(const WallTime& more, WallTime* sum) {
-  sum->device_s += more.device_s;
-  sum->references_s += more.references_s;
-  sum->visibility_s += more.visibility_s;
-  sum->compilation_s += more.compilation_s;
-}
-
-bool has_result(const SceneOutcome& outcome, const std::string& id) {
-  return std::any_of(outcome.cases.begin(), outcome.cases.end(),
-                     [&](const CaseResult& r) { return r.id == id; });
-}
-
-std::vector<Case> without_result(const std::vector<Case>& cases, const SceneOutcome& outcome) {
-  std::vector<Case> out;
-  std::copy_if(cases.begin(), cases.end(), std::back_inserter(out),
-               [&](const Case& c) { return !has_result(outcome, c.id); });
-  return out;
-}
-
-// How a worker ended, and at what.
-struct End {
-  bool done = false;
-  std::string kind, how;  // unless done: as CaseError; no_device apart
-  std::string no_device;
-  Activity activity{"", kStarting, false};
-
-  std::string message() const { return one_line(how) + " during " + activity.action; }
-};
-
-// Follows one worker to its end; what it tells goes to `outcome` and `log`.
-class Watch {
+// What the workers of one scene tell, and what they lose.
+class SceneWatch {
  public:
-  Watch(SceneOutcome* outcome, WorkerLog* log) : outcome_(*outcome), log_(*log) {}
+  SceneWatch(const std::string& scene, const Config& config, const Jobs& jobs, SceneOutcome* outcome,
+             WorkerLog* log)
+      : scene_(scene), config_(config), jobs_(jobs), outcome_(*outcome), log_(*log), before_(log->wall) {}
 
-  End follow(Child& child, double time_limit_s) {
-    while (!end_.done && end_.how.empty() && end_.no_device.empty()) {
-      const auto message = child.receive(end_.activity.limited ? time_limit_s : kForEver);
-      if (message) {
-        try {
-          take(*message);
-        } catch (const std::exception&) {  // a key that is missing, a value of another type
-          end_.kind = "crashed";
-          end_.how = "sent what is no message";
-        }
-      } else {
-        end_.kind = child.timed_out() ? "timeout" : "crashed";
-        end_.how = child.how_it_ended().empty() ? "ended the process (exit code 0)" : child.how_it_ended();
-      }
-    }
-    if (end_.done) {
-      while (child.receive(time_limit_s)) {  // lets it give everything back
-      }
-    }
-    add(wall_, &log_.wall);
-    return end_;
+  void take(const SceneNews& news) {
+    if (news.scene) outcome_.scene = news.scene;
+    if (news.result && !has_result(outcome_, news.result->id)) outcome_.cases.push_back(*news.result);
+    if (news.aa) outcome_.aa = news.aa;
+    log_.wall = before_;
+    add(news.wall, &log_.wall);
+    log_.validation_messages.insert(log_.validation_messages.end(), news.validation.begin(),
+                                    news.validation.end());
+  }
+
+  // A lost twin costs the A/A pair, and a lost sheet itself.
+  void lose(size_t job, const End& end) {
+    if (job >= jobs_.cases.size()) return;
+    // A device that was lost at no case's fault leaves its cases to be tried again.
+    const bool no_fault = !end.task.job && end.kind == ErrorKind::device_lost;
+    const std::string message = end.kind == ErrorKind::device
+                                    ? "the device can't be opened any more: " + one_line(end.how)
+                                : end.kind == ErrorKind::internal ? end.how
+                                                                  : message_of(end);
+    for (CaseResult& result :
+         failed_cases({jobs_.cases[job]}, config_, no_fault ? ErrorKind::device : end.kind, message))
+      outcome_.cases.push_back(std::move(result));
+  }
+
+  void bury(const End& end) {
+    before_ = log_.wall;
+    if (end.kind == ErrorKind::device) log_.device_gone = one_line(end.how);
+    const bool of_case = end.task.job && *end.task.job < jobs_.cases.size();
+    log_warning("{}: {}", of_case ? jobs_.cases[*end.task.job].id : scene_, message_of(end));
   }
 
  private:
-  void take(const Json& m) {
-    if (m.contains("activity")) {
-      const Json& a = m["activity"];
-      end_.activity = {a.at("case"), a.at("action"), a.at("limited")};
-    }
-    if (m.contains("scene")) outcome_.scene = part_from_json<SceneReport>(m["scene"]);
-    if (m.contains("case") && !has_result(outcome_, m["case"].at("id")))
-      outcome_.cases.push_back(part_from_json<CaseResult>(m["case"]));
-    if (m.contains("aa")) outcome_.aa = part_from_json<AaPair>(m["aa"]);
-    if (m.contains("wall")) wall_ = part_from_json<WallTime>(m["wall"]);
-    if (m.contains("validation"))
-      for (const auto& text : m["validation"]) log_.validation_messages.push_back(text);
-    if (m.contains("no_device")) end_.no_device = m["no_device"];
-    if (m.contains("device_lost")) {
-      end_.kind = "device_lost";
-      end_.how = m["device_lost"];
-    }
-    end_.done = m.contains("done");
+  static std::string message_of(const End& end) {
+    return fmt::format("{} during {}", one_line(end.how), end.task.action);
   }
 
+  const std::string& scene_;
+  const Config& config_;
+  const Jobs& jobs_;
   SceneOutcome& outcome_;
   WorkerLog& log_;
-  WallTime wall_;  // of this worker, so far
-  End end_;
+  WallTime before_;  // of the workers that ended
 };
 
-// Whether anything is left to do: cases, or the contact sheet of those that were measured.
-bool needs_worker(const std::vector<Case>& left, const SceneOutcome& outcome) {
-  const bool undrawn = outcome.scene && outcome.scene->contact.empty() &&
-                       std::any_of(outcome.cases.begin(), outcome.cases.end(),
-                                   [](const CaseResult& c) { return !c.images.empty(); });
-  return !left.empty() || undrawn;
-}
+// The message of the worker that only looks at the device.
+struct Probed {
+  DeviceReport device;
+};
+
+Json to_json(const Probed& probed) { return part_to_json(probed.device); }
+void from_json(const Json& json, Probed* probed) { probed->device = part_from_json<DeviceReport>(json); }
 
 }  // namespace
 
 DeviceReport probe_device(const WorkerOptions& options) {
-  Child child([&](const ToParent& parent) {
-    become_worker(options);
-    try {
-      const Device device(options.device);
-      parent.send({{"device", part_to_json(describe(device.info()))}});
-    } catch (const Error& e) {
-      parent.send({{"no_device", e.what()}});
-    }
-  });
-  const auto answer = child.receive(kForEver);
-  if (!answer) {
-    throw fail(ErrorKind::device, "opening the device {}; see vsglbench doctor",
-               child.how_it_ended().empty() ? "ended the process" : child.how_it_ended());
-  }
-  try {
-    if (answer->contains("no_device")) throw Error(ErrorKind::device, answer->at("no_device"));
-    return part_from_json<DeviceReport>(answer->at("device"));
-  } catch (const Json::exception& e) {
-    throw fail(ErrorKind::device, "opening the device sent what is no message: {}", e.what());
-  }
+  DeviceReport found;
+  supervise<Probed>({.name = "opening the device",
+                     .work =
+                         [&](const Worker<Probed>& worker, const std::vector<size_t>& left) {
+                           if (options.detach) options.detach();
+                           const Device device(options.device);
+                           worker.done(left.front(), {describe(device.info())});
+                         },
+                     .told = [&](const Probed& probed) { found = probed.device; },
+                     .lost =
+                         [&](size_t, const End& end) {
+                           if (end.kind == ErrorKind::device) throw Error(end.kind, end.how);
+                           throw fail(ErrorKind::device, "opening the device {}; see vsglbench doctor",
+                                      end.how);
+                         }});
+  return found;
 }
 
 void run_scene_in_workers(const std::string& scene, const Config& config, const std::vector<Case>& cases,
                           bool aa, const WorkerOptions& options, const std::function<void()>& died,
                           SceneOutcome* outcome, WorkerLog* log) {
-  const auto fail_all = [&](const std::vector<Case>& which, const std::string& kind,
-                            const std::string& message) {
-    for (auto& result : failed_cases(which, config, kind, message)) outcome->cases.push_back(result);
-  };
-  std::vector<Case> left = without_result(cases, *outcome);
-  bool started_twice = false;
-  while (needs_worker(left, *outcome)) {
-    End end;
-    {
-      Child child([&](const ToParent& parent) {
-        work(parent, scene, config, left, aa && !outcome->aa, options, *outcome);
-      });
-      end = Watch(outcome, log).follow(child, options.time_limit_s);
-    }
-    left = without_result(cases, *outcome);
-    if (end.done) return fail_all(left, "internal", "the worker process left this case out");
-    if (!end.no_device.empty()) {
-      log->device_gone = end.no_device;
-      return fail_all(left, "device", "the device can't be opened any more: " + end.no_device);
-    }
-    // 1. Nothing had begun: whoever killed it may leave the next alone.
-    if (end.activity.action == kStarting && end.kind == "crashed" && !started_twice) {
-      started_twice = true;
-      log_warning("{}: {}; it is started once more", scene, end.message());
-      continue;
-    }
-    // 2. Blame. A twin's failure costs the A/A pair.
-    const auto guilty =
-        std::find_if(left.begin(), left.end(), [&](const Case& c) { return c.id == end.activity.case_id; });
-    const bool own_work = end.activity.case_id.empty();
-    log_warning("{}: {}", own_work ? scene : end.activity.case_id, end.message());
-    if (guilty != left.end()) {
-      fail_all({*guilty}, end.kind, end.message());
-    } else if (!own_work && aa) {
-      aa = false;
-    } else {
-      fail_all(left, end.kind == "device_lost" ? "device" : end.kind, end.message());
-      return died();
-    }
-    // 3. The rest in a new worker.
-    died();
-    left = without_result(cases, *outcome);
-  }
+  std::vector<Case> left;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(left),
+               [&](const Case& c) { return !has_result(*outcome, c.id); });
+  const Jobs jobs{left, aa && !outcome->aa};
+  SceneWatch watch(scene, config, jobs, outcome, log);
+  supervise<SceneNews>({.name = scene,
+                        .jobs = jobs.count(),
+                        .work =
+                            [&](const Worker<SceneNews>& worker, const std::vector<size_t>& open) {
+                              work(worker, open, jobs, scene, config, options, *outcome);
+                            },
+                        .told = [&](const SceneNews& news) { watch.take(news); },
+                        .lost = [&](size_t job, const End& end) { watch.lose(job, end); },
+                        .died =
+                            [&](const End& end) {
+                              watch.bury(end);
+                              died();
+                            }});
 }
 
 }  // namespace vsglbench

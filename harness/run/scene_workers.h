@@ -32,10 +32,9 @@ struct WorkerLog {
 };
 
 // Measures those of `cases` that `outcome` holds no result of, in one worker process. When that dies the case
-// that was active fails (kind "crashed", "timeout" or "device_lost"), what was finished is kept, `died` is
-// called, and a new worker measures the rest: every worker that dies takes a case with it, so there is an
-// end. One that dies at the harness's own work fails all that is left; before it had begun any, it is started
-// once more. When no device can be opened any more, all that are left fail with kind "device".
+// that was active fails (kind crashed, timeout or device_lost), what was finished is kept, `died` is called,
+// and a new worker measures the rest (base/supervise.h). One that dies at the harness's own work fails all
+// that is left. When no device can be opened any more, all that are left fail with kind device.
 void run_scene_in_workers(const std::string& scene, const Config& config, const std::vector<Case>& cases,
                           bool aa, const WorkerOptions& options, const std::function<void()>& died,
                           SceneOutcome* outcome, WorkerLog* log);

@@ -19,12 +19,18 @@ struct Case {
   Json parameters;         // everything resolved, for the report
 };
 
-// The keys that every case has beside its method's own, and what they are where a config is silent.
-const Json& case_defaults();
+// What `run --set` said, by key.
+using Overrides = Json;
 
-// The cases of `doc`, a config that obeys its schema: scene by scene, entry by entry, the last list fastest.
-// Throws doc.error() for an unknown method or key, an empty list, a value out of range, or a case that comes
-// twice.
-std::vector<Case> expand_cases(const JsonDocument& doc, const FrameParameters& base);
+// The cases of `root`, a config that obeys its schema and has taken in `overrides`: scene by scene, entry by
+// entry, the last list fastest. `doc` is its file. Throws doc.error() for an unknown method or key, an empty
+// list, a value out of range, or a case that comes twice.
+std::vector<Case> expand_cases(const JsonDocument& doc, const Json& root, const Overrides& overrides,
+                               const FrameParameters& base);
+
+// The cases that any of `globs` matches, in their order; all where there is none. Throws Error(usage), naming
+// the nearest id, for a glob that matches none; `option` is where the globs come from.
+std::vector<Case> select_cases(const std::vector<Case>& cases, const std::vector<std::string>& globs,
+                               const std::string& option);
 
 }  // namespace vsglbench

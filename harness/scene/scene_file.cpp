@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-struct SceneName {
-  fs::path file;     // the scene.json
+struct SceneFile {
+  fs::path path;     // of the scene.json
   std::string view;  // empty for the default one
 };
 
@@ -34,17 +34,13 @@ std::vector<std::string> scene_folders(const fs::path& scenes_dir) {
   return names;
 }
 
-SceneName locate(const std::string& name_or_path, const SceneOptions& options) {
-  // A colon after the last slash parts the view off.
-  std::string name = name_or_path, view;
-  const size_t colon = name.rfind(':'), slash = name.rfind('/');
-  if (colon != std::string::npos && (slash == std::string::npos || colon > slash)) {
-    view = name.substr(colon + 1);
-    name.resize(colon);
-    if (view.empty()) throw fail(ErrorKind::scene, "scene '{}': no view after the colon", name_or_path);
-  }
+SceneFile locate(const std::string& name_or_path, const SceneOptions& options) {
+  const auto [name, chosen] = parse_scene_name(name_or_path);
+  const std::string view = chosen.value_or("");
+  if (chosen && view.empty())
+    throw fail(ErrorKind::scene, "scene '{}': no view after the colon", name_or_path);
   std::error_code ec;
-  if (slash != std::string::npos || name.ends_with(".json")) {
+  if (is_path(name)) {
     const fs::path path = name;
     return {fs::is_directory(path, ec) ? path / "scene.json" : path, view};
   }
@@ -116,8 +112,8 @@ void load_asset(const JsonDocument& document, const SceneOptions& options, doubl
     const std::string where = options.assets_dir.empty()
                                   ? "no assets folder was given (--assets DIR or VSGLBENCH_ASSETS)"
                                   : fmt::format("{} does not hold it", options.assets_dir.string());
-    throw AssetMissing(fmt::format("scene {} needs {}; {}; to get it: {}", root.at("name").get<std::string>(),
-                                   file, where, root.at("get_it").get<std::string>()));
+    throw fail(ErrorKind::asset_missing, "scene {} needs {}; {}; to get it: {}",
+               root.at("name").get<std::string>(), file, where, root.at("get_it").get<std::string>());
   }
   load_gltf(path, unit, scene);
 }
@@ -162,9 +158,20 @@ void apply_overrides(const JsonDocument& document, Scene* scene) {
 
 }  // namespace
 
+SceneName parse_scene_name(const std::string& text) {
+  const size_t colon = text.rfind(':'), slash = text.rfind('/');
+  if (colon == std::string::npos || (slash != std::string::npos && colon < slash))
+    return {text, std::nullopt};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+bool is_path(const std::string& name) {
+  return name.find('/') != std::string::npos || name.ends_with(".json");
+}
+
 Scene load_scene(const std::string& name_or_path, const SceneOptions& options) {
-  const SceneName wanted = locate(name_or_path, options);
-  const JsonDocument document = load_document(wanted.file);
+  const SceneFile wanted = locate(name_or_path, options);
+  const JsonDocument document = load_document(wanted.path);
   const Json& root = document.root();
   const std::string view = choose_view(document, wanted.view);
   choose_view(document, "");  // the default view must exist too

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,20 @@ struct SceneOptions {
   std::filesystem::path assets_dir;  // where downloaded geometry lies; may be empty
 };
 
-// The geometry of a scene isn't on this machine: says which file, and where to get it.
-class AssetMissing : public Error {
- public:
-  explicit AssetMissing(const std::string& message) : Error(ErrorKind::scene, message) {}
+// "colonnade:cut" in its parts: a colon after the last slash parts the view off.
+struct SceneName {
+  std::string scene;                // "colonnade", or a path
+  std::optional<std::string> view;  // nothing: the default one
 };
+SceneName parse_scene_name(const std::string& text);
+
+// Whether a name is the path of a file or folder: it has a '/' or ends in .json.
+bool is_path(const std::string& name);
 
 // `name_or_path`: "sponza", or a scene.json or its folder (anything with a '/' or ending in .json); either
 // may end in ":VIEW". Without one the scene's default view. The scene comes checked (check_scene) and hashed.
-// Throws AssetMissing, or Error(scene) "FILE:LINE: ...".
+// Throws Error(asset_missing) for geometry that isn't on this machine, which says which file and where to get
+// it; Error(scene) "FILE:LINE: ...".
 Scene load_scene(const std::string& name_or_path, const SceneOptions& options);
 
 // What a list of scenes shows, read without loading geometry.

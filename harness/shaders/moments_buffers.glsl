@@ -1,10 +1,12 @@
-// The moment pyramid as five vec4 buffers from binding MOMENTS_BINDING on (split to stay within a device's
-// storage-buffer range at full resolution).
+// The moment pyramid as five vec4 buffers from binding MOMENTS_BINDING on, which the host binds together
+// (MomentBuffers); what else a kernel binds comes before, or from AFTER_MOMENTS on. They are split to stay
+// within a device's storage-buffer range at full resolution.
 #ifndef VSGLBENCH_MOMENTS_BUFFERS_GLSL
 #define VSGLBENCH_MOMENTS_BUFFERS_GLSL
 
 #include "moments.glsl"
 
+#define AFTER_MOMENTS (MOMENTS_BINDING + 5)
 layout(set = 0, binding = MOMENTS_BINDING + 0, std430) buffer Moments0 { vec4 moments0[]; };  // Pd, variance
 layout(set = 0, binding = MOMENTS_BINDING + 1, std430) buffer Moments1 { vec4 moments1[]; };  // Ps
 layout(set = 0, binding = MOMENTS_BINDING + 2, std430) buffer Moments2 { vec4 moments2[]; };  // mean

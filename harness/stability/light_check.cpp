@@ -83,14 +83,8 @@ Difference difference(const Aggregate& g, const Aggregate& c) {
   return d;
 }
 
-std::optional<oracle::Rule> filtering_rule(const std::string& method) {
-  if (method == "fis") return oracle::Rule::fis;
-  if (method == "mfis") return oracle::Rule::mfis;
-  return std::nullopt;
-}
-
 // Light i as the paper's rule makes it, from the texel that `fixed` warps to.
-Difference filtered_difference(const LightsAsked& asked, const oracle::Pyramid& pyramid, oracle::Rule rule,
+Difference filtered_difference(const LightsAsked& asked, const oracle::Pyramid& pyramid, LightRule rule,
                                uint32_t count, glm::uvec2 fixed, const gpu::Vsgl& light) {
   const double k = asked.parameters.at("K").get<double>();
   const oracle::Vsgl whole = oracle::filtered_light(asked.half, pyramid, rule, k, count, fixed);
@@ -99,8 +93,8 @@ Difference filtered_difference(const LightsAsked& asked, const oracle::Pyramid& 
   const glm::uvec2 t = pyramid.warp(u.x, u.y);
   const double x = t.x + 0.5, y = t.y + 0.5, texels = double(e.width) * e.height;
   const double level = std::clamp<double>(light.level, 0, pyramid.top());
-  const double share = rule == oracle::Rule::fis ? 1 / std::max(count * pyramid.pdf(x, y, 0), 1.0)
-                                                 : 1 / (count * pyramid.pdf(x, y, level));
+  const double share = rule == LightRule::pdf_at_centre ? 1 / std::max(count * pyramid.pdf(x, y, 0), 1.0)
+                                                        : 1 / (count * pyramid.pdf(x, y, level));
   const oracle::Vsgl here = oracle::make_vsgl(pyramid.sums(x, y, level), share * texels);
   Difference d;
   if (!(here.power > 0)) {
@@ -112,14 +106,14 @@ Difference filtered_difference(const LightsAsked& asked, const oracle::Pyramid& 
   return d;
 }
 
-void check_filtered(const LightsAsked& asked, oracle::Rule rule, const LightRecords& lights,
+void check_filtered(const LightsAsked& asked, LightRule rule, const LightRecords& lights,
                     Judgement* verdict) {
   const oracle::Pyramid pyramid(asked.half);
   const auto count = static_cast<uint32_t>(lights.count());
   for (uint32_t i = 0; i < count; ++i) {
     const glm::uvec2 fixed = lattice_point(i, count, asked.shift);
     const auto against = [&](glm::uvec2 point) {
-      return filtered_difference(asked, pyramid, rule, count, point, lights.vsgl(i));
+      return filtered_difference(asked, pyramid, rule, count, point, lights.at<gpu::Vsgl>(i));
     };
     Difference least = against(fixed);
     for (const int dx : {-1, 0, 1}) {
@@ -143,7 +137,7 @@ double own_variance(const oracle::Sums& texel) {
 void check_sum(const LightsAsked& asked, const LightRecords& lights, Judgement* verdict) {
   oracle::Sums made, texels;
   for (size_t i = 0; i < lights.count(); ++i) {
-    const oracle::Vsgl v = widened(lights.vsgl(i));
+    const oracle::Vsgl v = widened(lights.at<gpu::Vsgl>(i));
     if (!(v.power > 0)) continue;
     const Aggregate a = aggregate(v);
     const double wd = oracle::luminance(a.diffuse), ws = oracle::luminance(a.specular), w = wd + ws;
@@ -161,7 +155,7 @@ void check_sum(const LightsAsked& asked, const LightRecords& lights, Judgement* 
     }
   }
   for (size_t i = 0; i < lights.count(); ++i) {
-    if (const gpu::Vsgl v = lights.vsgl(i); v.power > 0)
+    if (const gpu::Vsgl v = lights.at<gpu::Vsgl>(i); v.power > 0)
       verdict->error(1 - v.variance / least, fmt::format("light {}", i), "variance below any texel's");
   }
   const Difference d =
@@ -190,20 +184,22 @@ Difference texel_difference(const LightsAsked& asked, const gpu::Vpl& light, siz
   return d;
 }
 
-void check_vpls(const LightsAsked& asked, const LightRecords& lights, Judgement* verdict) {
+void check_vpls(const LightsAsked& asked, const std::vector<gpu::Vpl>& lights, Judgement* verdict) {
   const oracle::Half& half = asked.half;
   double mean = 0;
   for (const float p : half.pdf) mean += p / static_cast<double>(half.pdf.size());
-  for (size_t i = 0; i < lights.count(); ++i) {
-    const gpu::Vpl light = lights.vpl(i);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const gpu::Vpl& light = lights[i];
     if (!(light.power > 0)) continue;
     Difference least{std::numeric_limits<double>::infinity(), "no texel lies there"};
     for (size_t t = 0; t < half.texels.size(); ++t) {
       if (!half.texels[t].surface || half.texels[t].position != light.position) continue;
       double scale = 0;  // how many texels' flux the light carries, where that is known
-      if (asked.method.name == "all-texels") scale = 1;
-      if (asked.method.name == "vpl")
-        scale = mean / (static_cast<double>(lights.count()) * half.pdf[t]) * half.texels.size();
+      if (asked.method.light_rule == LightRule::texel) {
+        scale = asked.method.takes_light_count
+                    ? mean / (static_cast<double>(lights.size()) * half.pdf[t]) * half.texels.size()
+                    : 1;
+      }
       const Difference d = texel_difference(asked, light, t, scale);
       if (d.error < least.error) least = d;
     }
@@ -216,9 +212,11 @@ void check_vpls(const LightsAsked& asked, const LightRecords& lights, Judgement*
 void check_lights(const LightsAsked& asked, const LightRecords& lights, Judgement* verdict) {
   if (const std::string fault = first_fault(lights, asked.powerless); !fault.empty()) verdict->bad(fault);
   if (asked.powerless || verdict->is_bad()) return;
-  if (lights.kind != LightKind::vsgl) return check_vpls(asked, lights, verdict);
-  if (const auto rule = filtering_rule(asked.method.name)) {
-    check_filtered(asked, *rule, lights, verdict);
+  const LightRule rule = asked.method.light_rule;
+  if (const auto vpls = lights.all<gpu::Vpl>(); !vpls.empty()) return check_vpls(asked, vpls, verdict);
+  if (lights.kind != LightKind::vsgl) return;
+  if (rule == LightRule::pdf_at_centre || rule == LightRule::equal_probability) {
+    check_filtered(asked, rule, lights, verdict);
   } else if (asked.method.flux_bound <= 1e-3) {
     check_sum(asked, lights, verdict);
   }

@@ -17,14 +17,15 @@ struct LightsAsked {
 };
 
 // Every record sound (conformance/lights.h), and then what has a double form:
-//   fis, mfis            each light, of method/oracle.h at the level that the light says, which must be the
+//   filtered sampling    (LightRule) each light, of method/oracle.h at the level that the light says, which
+//   must be the
 //                        oracle's within two steps of the bisection; a lattice point that lies on the border
 //                        of a texel may fall on either side
 //   all texels in VSGLs  (flux_bound ≤ 1e-3) powers, mean directions, mean and variance of all lights
 //   together, and
 //                        no light's variance below the least of the texels' own
 //   VPLs                 each is a texel: its position, normals and material to the bit, its direction, and
-//                        for `vpl` and `all-texels` its flux
+//                        by LightRule::texel its flux
 // Errors are relative: powers to the light's, mean directions (r ξ) to 1, 1-r to itself, positions to σ,
 // and variances to themselves; where single precision can't hold a position (2^-23 of its size) or an angle
 // between two directions (2^-47 in 1-r), what it can't hold counts as 1e-3.

@@ -1,7 +1,7 @@
 // Lights at made-up surfaces, on the device: frame/shade.comp as a frame runs it, without visibility.
 #pragma once
 
-#include "conformance/lights.h"
+#include "frame/light_records.h"
 #include "frame/shading.h"
 #include "gpu/recorder.h"
 #include "method/made_half.h"

@@ -39,7 +39,7 @@ Picture render(Device& device, const Scene& scene, const std::string& method) {
                           .visibility = Visibility::none};
   Frame frame(stage, info, resolve_parameters(info, Json::object()), p, nullptr);
   frame.render(0);
-  return {frame.indirect(), frame.surface_mask()};
+  return {frame.results().indirect(), frame.results().surface_mask()};
 }
 
 }  // namespace

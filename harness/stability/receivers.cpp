@@ -107,14 +107,8 @@ dvec3 beside(const oracle::Half& half, const Region& r) {
 
 std::vector<LightSpot> light_spots(const LightRecords& lights) {
   std::vector<LightSpot> spots;
-  for (size_t i = 0; i < lights.count(); ++i) {
-    if (lights.kind == LightKind::vsgl) {
-      const gpu::Vsgl v = lights.vsgl(i);
-      if (v.power > 0) spots.push_back({dvec3(v.mean), std::sqrt(double(v.variance))});
-    } else {
-      const gpu::Vpl v = lights.vpl(i);
-      if (v.power > 0) spots.push_back({dvec3(v.position), 0});
-    }
+  for (const LightSummary& light : summaries_of(lights)) {
+    if (light.power > 0) spots.push_back({dvec3(light.position), std::sqrt(double(light.variance))});
   }
   return spots;
 }

@@ -175,13 +175,6 @@ void check(const oracle::Half& receivers, std::span<const glm::vec3> pixels, con
   }
 }
 
-template <class Light, class Get>
-Exactly<Light> exactly(const LightRecords& records, const exact::VsglShading& shading, const Get& get) {
-  std::vector<Light> lights;
-  for (size_t i = 0; i < records.count(); ++i) lights.push_back(get(i));
-  return {std::move(lights), shading};
-}
-
 // The check of lights whose shading has no value to compare with.
 void check_possible(std::span<const glm::vec3> pixels, bool black, Judgement* verdict) {
   verdict->note("pixels have no double form: looked at for NaN, Inf and sign");
@@ -197,11 +190,9 @@ void check_shading(const oracle::Half& receivers, std::span<const glm::vec3> pix
                    const LightRecords& lights, const std::optional<exact::VsglShading>& shading, bool black,
                    Judgement* verdict) {
   if (lights.kind == LightKind::vsgl && shading) {
-    const auto get = [&](size_t i) { return lights.vsgl(i); };
-    check(receivers, pixels, exactly<gpu::Vsgl>(lights, *shading, get), black, verdict);
+    check(receivers, pixels, Exactly(lights.all<gpu::Vsgl>(), *shading), black, verdict);
   } else if (lights.kind == LightKind::vpl) {
-    const auto get = [&](size_t i) { return lights.vpl(i); };
-    check(receivers, pixels, exactly<gpu::Vpl>(lights, {}, get), black, verdict);
+    check(receivers, pixels, Exactly(lights.all<gpu::Vpl>(), {}), black, verdict);
   } else {
     check_possible(pixels, black, verdict);
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/child.h"
 #include "base/log.h"
 #include "base/nearest.h"
+#include "base/supervise.h"
 #include "method/registry.h"
 #include "shaders/sg_exact.h"
 #include "stability/trial.h"
@@ -52,26 +52,38 @@ std::vector<std::string> models_of(const std::vector<std::string>& diffuse) {
   return diffuse.empty() ? known : diffuse;
 }
 
-// The child's part, from job `first` on.
-void try_jobs(const std::vector<Job>& jobs, size_t first, const StabilityOptions& options,
-              const std::vector<std::string>& diffuse, const ToParent& parent) {
-  std::unique_ptr<Device> device;
-  try {
-    device = std::make_unique<Device>(DeviceOptions{.select = options.device});
-  } catch (const Error& e) {
-    parent.send({{"unusable", e.what()}, {"kind", e.exit_code()}});
-    return;
-  }
-  KernelLibrary kernels(*device);
+// The cells of one job.
+struct Tried {
+  std::vector<StabilityCell> cells;
+};
+
+Json to_json(const Tried& tried) {
+  Json json = Json::array();
+  for (const StabilityCell& cell : tried.cells) json.push_back(to_json(cell));
+  return json;
+}
+
+void from_json(const Json& json, Tried* tried) {
+  for (const Json& cell : json) tried->cells.push_back(cell_from_json(cell));
+}
+
+// In the worker.
+void try_jobs(const std::vector<Job>& jobs, const std::vector<size_t>& left, const StabilityOptions& options,
+              const std::vector<std::string>& diffuse, const Worker<Tried>& worker) {
+  worker.now({{}, "opening the device", options.silence_s});
+  Device device({.select = options.device});
+  KernelLibrary kernels(device);
   Trial trial(kernels, diffuse);
-  for (size_t i = first; i < jobs.size(); ++i) {
-    parent.send({{"job", i}});
-    Json cells = Json::array();
-    for (const StabilityCell& cell : trial.run(*jobs[i].hard_case, *jobs[i].row)) {
-      cells.push_back(to_json(cell));
-    }
-    parent.send({{"cells", cells}});
+  for (const size_t i : left) {
+    worker.now({i, jobs[i].hard_case->name, options.silence_s});
+    worker.done(i, {trial.run(*jobs[i].hard_case, *jobs[i].row)});
   }
+}
+
+StabilityCell bad_cell(const Job& job, const std::string& why) {
+  Judgement verdict;
+  verdict.bad(why);
+  return verdict.cell(job.hard_case->name, job.row->name, "-");
 }
 
 }  // namespace
@@ -110,32 +122,19 @@ std::vector<StabilityCell> run_stability(const StabilityOptions& options,
     cells.push_back(cell);
     on_cell(cell);
   };
-  // A child goes through the jobs; where it ends in the midst of one, that one is bad, and another goes on
-  // behind it.
-  for (size_t next = 0; next < jobs.size();) {
-    const size_t first = next;
-    bool open = false;  // a job that has begun and not ended
-    Child child([&](const ToParent& parent) { try_jobs(jobs, first, options, diffuse, parent); });
-    while (const auto message = child.receive(options.silence_s)) {
-      if (message->contains("unusable"))
-        throw Error(message->at("kind").get<ErrorKind>(), message->at("unusable").get<std::string>());
-      if (message->contains("job")) {
-        next = message->at("job").get<size_t>();
-        open = true;
-        continue;
-      }
-      for (const Json& cell : message->at("cells")) tell(cell_from_json(cell));
-      open = false;
-      ++next;
-    }
-    if (next == jobs.size()) break;
-    if (!open && next == first)
-      throw fail(ErrorKind::device, "the device's process {}", child.how_it_ended());
-    Judgement verdict;
-    verdict.bad(child.how_it_ended().empty() ? "ended the process" : child.how_it_ended());
-    tell(verdict.cell(jobs[next].hard_case->name, jobs[next].row->name, "-"));
-    ++next;
-  }
+  supervise<Tried>(
+      {.name = "stability",
+       .jobs = jobs.size(),
+       .work = [&](const Worker<Tried>& worker,
+                   const std::vector<size_t>& left) { try_jobs(jobs, left, options, diffuse, worker); },
+       .told = [&](const Tried& tried) { std::ranges::for_each(tried.cells, tell); },
+       .lost =
+           [&](size_t job, const End& end) {
+             if (!end.task.job) {
+               throw Error(ErrorKind::device, end.kind == ErrorKind::device ? end.how : end.message());
+             }
+             tell(bad_cell(jobs[job], end.how));
+           }});
   return cells;
 }
 

@@ -28,7 +28,7 @@ std::vector<StabilityRow> stability_rows(const std::vector<std::string>& methods
 std::vector<std::string> stability_cases();  // names, in order
 
 // Tries each case with each method, in a process that is started anew where a method crashes or hangs, and
-// tells each cell as it comes. The caller has neither threads nor a Vulkan device (base/child.h). Throws
+// tells each cell as it comes. The caller has neither threads nor a Vulkan device (base/supervise.h). Throws
 // Error(usage) for an unknown case or diffuse model, Error(device) without a usable device, and as
 // stability_rows().
 std::vector<StabilityCell> run_stability(const StabilityOptions& options,

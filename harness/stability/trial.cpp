@@ -58,16 +58,6 @@ void check_powers(const MethodInfo& method, const std::vector<double>& powers, d
   check_energy(method, mean / texels, error / texels, verdict);
 }
 
-template <class Light>
-LightRecords records_of(LightKind kind, const std::vector<Light>& lights) {
-  const auto bytes = std::as_bytes(std::span(lights));
-  return {kind, {bytes.begin(), bytes.end()}};
-}
-LightRecords lights_of(const Frame& frame) {
-  if (frame.light_kind() == LightKind::vsgl) return records_of(LightKind::vsgl, frame.vsgls());
-  return records_of(frame.light_kind(), frame.vpls());
-}
-
 oracle::Half downloaded(const DeferredTargets& targets, const gpu::Emitter& emitter) {
   oracle::Half half{.emitter = emitter};
   std::vector<std::vector<glm::vec4>> maps;
@@ -125,7 +115,7 @@ std::vector<StabilityCell> Trial::run(const HardCase& hard_case, const Stability
     }
     return cells;
   } catch (const Error& e) {
-    if (e.kind() == ErrorKind::device) throw;
+    if (e.kind() == ErrorKind::device_lost) throw;
     Judgement verdict;
     verdict.bad(fmt::format("threw \"{}\"", e.what()));
     return {verdict.cell(hard_case.name, row.name, "-")};
@@ -203,11 +193,12 @@ StabilityCell Trial::run_scene(const HardCase& hard_case, const StabilityRow& ro
     check_targets(gbuffer, "G-buffer", &verdict);
     check_targets(rsm, "RSM", &verdict);
     if (!verdict.is_bad()) {
-      rsm.pdf = frame.importance();
+      rsm.pdf = frame.results().importance();
       rsm.pdf.resize(rsm.texels.size(), 1);
-      const LightRecords lights = lights_of(frame);
+      const LightRecords lights = frame.results().lights();
       check_lights({rsm, method, parameters, lattice_shift(0)}, lights, &verdict);
-      check_shading(gbuffer, frame.indirect().pixels, lights, exact_shading(p.shading), false, &verdict);
+      check_shading(gbuffer, frame.results().indirect().pixels, lights, exact_shading(p.shading), false,
+                    &verdict);
     }
   } catch (const Error& e) {
     const std::string what = e.what();

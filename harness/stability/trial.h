@@ -13,7 +13,7 @@ class Trial {
   Trial(KernelLibrary& kernels, std::vector<std::string> diffuse)
       : kernels_(kernels), shading_(kernels), diffuse_(std::move(diffuse)) {}
 
-  // What the method throws is a cell, but for a lost device: Error(device).
+  // What the method throws is a cell, but for a lost device: Error(device_lost).
   std::vector<StabilityCell> run(const HardCase& hard_case, const StabilityRow& row);
 
  private:

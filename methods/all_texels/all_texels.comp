@@ -7,9 +7,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "field.glsl"
 #include "vpl_light.glsl"
 #if EXACT
-layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vpl lights[]; };
+layout(set = 0, binding = AFTER_MAPS, scalar) writeonly buffer Lights { Vpl lights[]; };
 #else
-layout(set = 0, binding = 5, scalar) writeonly buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = AFTER_MAPS, scalar) writeonly buffer Lights { Vsgl lights[]; };
 #endif
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 

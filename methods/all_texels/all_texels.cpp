@@ -14,10 +14,8 @@ class AllTexels : public Method {
 
   void generate(Steps& steps, const Field& field, const LightTarget& target) override {
     steps.pass("convert", [&] {
-      const auto& maps = field.maps;
-      steps.recorder().dispatch(convert_, {*maps[0], *maps[1], *maps[2], *maps[3], *maps[4], *target.buffer},
-                                field.emitter, groups_for(field.emitter.width, 8),
-                                groups_for(field.emitter.height, 8));
+      steps.recorder().dispatch(convert_, {field.maps, *target.buffer}, field.emitter,
+                                groups_for(field.emitter.width, 8), groups_for(field.emitter.height, 8));
     });
   }
 
@@ -41,6 +39,7 @@ VSGLBENCH_METHOD(MethodInfo{
                     0,
                     {"exact", "vsgl16", "vsgl14"}}},
     .flux_bound = 1e-5,
+    .light_rule = LightRule::texel,
     .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {
       return std::make_unique<AllTexels>(context, parameters.at("shading") == "exact");
     }})

@@ -4,6 +4,7 @@
 #include <bit>
 #include <map>
 
+#include "gpu/limits.h"
 #include "method/cluster_sum.h"
 #include "method/light_kernel.h"
 #include "method/plugin.h"
@@ -12,9 +13,9 @@
 namespace vsglbench {
 namespace {
 
-// Samples at least, and at most: lavapipe ends an invocation's loops after 65535 rounds, without a word, and
-// one that splits a node by itself goes through the node's samples three times.
-constexpr uint32_t kLeastSamples = 4096, kMostSamples = 16384;
+// Samples at least, and at most: an invocation that splits a node by itself goes through the node's samples
+// three times.
+constexpr uint32_t kLeastSamples = 4096, kMostSamples = limits::quarter_of_rounds;
 // Rounds beyond those of a balanced tree, so that it may lean.
 constexpr uint32_t kSpareRounds = 4;
 // Rounds in which a workgroup splits one node: they have few. Later an invocation does.
@@ -78,8 +79,8 @@ class Cut : public Method {
       uint32_t width, height, count, step;
       glm::uvec2 shift;
     } push{field.emitter.width, field.emitter.height, count, lattice_step(count), target.shift};
-    r.dispatch(draw_, {*field.maps[0], *field.maps[1], *field.pdf, samples(field, target.count, 0)}, push,
-               groups_for(count, 64));
+    r.dispatch(draw_, {*field.maps.position, *field.maps.normal, *field.pdf, samples(field, target.count, 0)},
+               push, groups_for(count, 64));
   }
 
   void build(Recorder& r, const Field& field, const LightTarget& target) {
@@ -113,8 +114,9 @@ class Cut : public Method {
       uint32_t width, height, count;
       float direction;
     } push{field.emitter.width, field.emitter.height, target.count, direction_};
-    r.dispatch(assign_, {*field.maps[0], *field.maps[1], space(field), nodes(field, target.count), ids}, push,
-               groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));
+    r.dispatch(
+        assign_, {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
+        push, groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));
   }
 
   ClusterSum::SortedTexels sort(Recorder& r, const Field& field, uint32_t clusters, const Buffer& ids) {

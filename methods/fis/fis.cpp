@@ -7,6 +7,8 @@ VSGLBENCH_METHOD(MethodInfo{
     .source = "[MFIS16] Eq. 1, 4; Tokuyoshi 2015",
     .parameters = {{"K", 1.0, "footprint size: K/N of the image at mean density", 1e-6, 1e6, {}}},
     .flux_bound = 0.01,
+    .light_rule = LightRule::pdf_at_centre,
+    .published_code_size = PublishedCodeSize{2, 2, 222},
     .create = [](MethodContext& context, const Json& parameters) {
       return make_filtered_sampling(context, "fis.comp", parameters.at("K").get<float>());
     }})

@@ -3,4 +3,4 @@
 #include "method/plugin.h"
 
 VSGLBENCH_METHOD(kmeans_info<2, NearestCentre::Search::kd_tree, ClusterSumVariant::per_cluster>(
-    "k-means in the image, one thread a cluster sums it"))
+    "k-means in the image, one thread a cluster sums it", PublishedCodeSize{9, 39, 1143}))

@@ -4,7 +4,7 @@
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "two_vsgl.glsl"
-layout(set = 0, binding = 5, scalar) writeonly buffer Sums { Pair sums[]; };
+layout(set = 0, binding = AFTER_MAPS, scalar) writeonly buffer Sums { Pair sums[]; };
 layout(push_constant, scalar) uniform Push { Emitter emitter; };
 
 void main() {

@@ -23,12 +23,11 @@ class TwoLights : public Method {
 
   void generate(Steps& steps, const Field& field, const LightTarget& target) override {
     Recorder& r = steps.recorder();
-    const auto& m = field.maps;
     uint32_t count = groups_for(field.texels(), kFan);
     const Buffer* from = &pairs("pairs", field, count);
     steps.pass("sum", [&] {
       // 1. Texels, kFan at a time.  2. The sums likewise, until one is left.  3. Lights.
-      r.dispatch(texels_, {*m[0], *m[1], *m[2], *m[3], *m[4], *from}, field.emitter, groups_for(count, 64));
+      r.dispatch(texels_, {field.maps, *from}, field.emitter, groups_for(count, 64));
       bool second = true;
       for (; count > 1; second = !second) {
         const uint32_t fewer = groups_for(count, kFan);

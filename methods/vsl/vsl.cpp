@@ -2,6 +2,7 @@
 // neighbours (Hašan et al. 2009; [VSGL14] Eq. 2).
 #include <algorithm>
 
+#include "gpu/limits.h"
 #include "method/light_kernel.h"
 #include "method/plugin.h"
 
@@ -24,9 +25,10 @@ class SphericalLights : public Method {
     points_->generate(steps, field, target);
     // As importance, lights count as points: the eye's have no radius.
     if (field.half == Half::gbuffer) return;
-    // lavapipe ends a shader's loops after 65535 rounds in all: each dispatch looks at a range of the lights,
-    // and carries on with the nearest so far. A light that is nearer than all before it takes k rounds more.
+    // Each dispatch looks at a range of the lights, and carries on with the nearest so far. A light that is
+    // nearer than all before it takes k rounds more; what is left of limits::loop_rounds is for other loops.
     const uint32_t most = 60000 / (neighbours_ + 1);
+    static_assert(60000 < limits::loop_rounds);
     const Buffer& nearest =
         context_.scratch("vsl.nearest", size_t(target.count) * neighbours_ * sizeof(float));
     Recorder& r = steps.recorder();

@@ -2,10 +2,11 @@
 
 #include "bad_method.h"
 
-VSGLBENCH_METHOD(bad_method("crashes in its second frame",
-                            [](MethodContext&, const Json&) -> std::unique_ptr<Method> {
-                              return std::make_unique<BadMethod>([] {
+VSGLBENCH_METHOD(bad_method("crashes in a frame",
+                            [](MethodContext&, const Json& parameters) -> std::unique_ptr<Method> {
+                              const auto crash = [] {
                                 std::signal(SIGSEGV, SIG_DFL);
                                 std::raise(SIGSEGV);
-                              });
+                              };
+                              return std::make_unique<BadMethod>(crash, parameters);
                             }))

@@ -1,8 +1,7 @@
 // A loop whose condition can never turn false.
+#include "bad_method.h"
 #include "method/light_kernel.h"
-#include "method/plugin.h"
 
-VSGLBENCH_METHOD(MethodInfo{
-    .summary = "loops for ever", .source = "-", .create = [](MethodContext& context, const Json&) {
-      return make_light_kernel(context, "endless_loop.comp", LightKind::vsgl);
-    }})
+VSGLBENCH_METHOD(bad_method("loops for ever", [](MethodContext& context, const Json&) {
+  return make_light_kernel(context, "endless_loop.comp", LightKind::vsgl);
+}))

@@ -72,7 +72,8 @@ class Faulty : public Method {
   void generate(Steps& steps, const Field&, const LightTarget& target) override {
     if (++calls_ == 2) do_harm(fault_, steps);
     const auto record = [&] { steps.recorder().fill(*target.buffer, 0); };
-    if (fault_ == "raw-pass") return steps.recorder().pass("generate.rsm.Build Tree", record);
+    if (fault_ == "raw-pass")
+      return steps.recorder().pass({PassStage::generate, Half::rsm, "Build Tree"}, record);
     steps.pass("clear", record);
   }
 

@@ -2,9 +2,10 @@
 
 #include "bad_method.h"
 
-VSGLBENCH_METHOD(bad_method("never comes back from its second frame",
-                            [](MethodContext&, const Json&) -> std::unique_ptr<Method> {
-                              return std::make_unique<BadMethod>([] {
+VSGLBENCH_METHOD(bad_method("never comes back from a frame",
+                            [](MethodContext&, const Json& parameters) -> std::unique_ptr<Method> {
+                              const auto hang = [] {
                                 for (;;) ::pause();
-                              });
+                              };
+                              return std::make_unique<BadMethod>(hang, parameters);
                             }))

@@ -2,7 +2,8 @@
 #include "bad_method.h"
 #include "gpu/check.h"
 
-VSGLBENCH_METHOD(bad_method("loses the device in its second frame",
-                            [](MethodContext&, const Json&) -> std::unique_ptr<Method> {
-                              return std::make_unique<BadMethod>([] { VK_CHECK(VK_ERROR_DEVICE_LOST); });
+VSGLBENCH_METHOD(bad_method("loses the device in a frame",
+                            [](MethodContext&, const Json& parameters) -> std::unique_ptr<Method> {
+                              return std::make_unique<BadMethod>([] { VK_CHECK(VK_ERROR_DEVICE_LOST); },
+                                                                 parameters);
                             }))

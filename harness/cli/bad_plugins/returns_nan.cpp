@@ -1,7 +1,6 @@
+#include "bad_method.h"
 #include "method/light_kernel.h"
-#include "method/plugin.h"
 
-VSGLBENCH_METHOD(MethodInfo{
-    .summary = "makes lights of NaN", .source = "-", .create = [](MethodContext& context, const Json&) {
-      return make_light_kernel(context, "returns_nan.comp", LightKind::vsgl);
-    }})
+VSGLBENCH_METHOD(bad_method("makes lights of NaN", [](MethodContext& context, const Json&) {
+  return make_light_kernel(context, "returns_nan.comp", LightKind::vsgl);
+}))

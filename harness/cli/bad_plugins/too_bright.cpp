@@ -1,8 +1,7 @@
 // Lights of a hundred times the flux that their texels reflect.
+#include "bad_method.h"
 #include "method/light_kernel.h"
-#include "method/plugin.h"
 
-VSGLBENCH_METHOD(MethodInfo{
-    .summary = "forgets to divide by N", .source = "-", .create = [](MethodContext& context, const Json&) {
-      return make_light_kernel(context, "too_bright.comp", LightKind::vsgl);
-    }})
+VSGLBENCH_METHOD(bad_method("forgets to divide by N", [](MethodContext& context, const Json&) {
+  return make_light_kernel(context, "too_bright.comp", LightKind::vsgl);
+}))

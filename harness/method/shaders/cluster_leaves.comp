@@ -3,9 +3,9 @@
 #include "types.h"
 #include "cluster_texels.glsl"
 layout(local_size_x = GROUP) in;
-#define STARTS_BINDING 6
+#define STARTS_BINDING (AFTER_MAPS + 1)
 #include "cluster_piece.glsl"
-layout(set = 0, binding = 7, scalar) writeonly buffer Partials { Moments partials[]; };
+layout(set = 0, binding = AFTER_MAPS + 2, scalar) writeonly buffer Partials { Moments partials[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint clusters;  // N

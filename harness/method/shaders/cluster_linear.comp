@@ -3,9 +3,11 @@
 #include "types.h"
 #include "cluster_texels.glsl"
 layout(local_size_x = GROUP) in;
-layout(set = 0, binding = 6, std430) readonly buffer Starts { uint starts[]; };    // [cluster 0..N]
-layout(set = 0, binding = 7, scalar) buffer Unfinished { Moments unfinished[]; };  // [cluster]
-layout(set = 0, binding = 8, scalar) writeonly buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = AFTER_MAPS + 1, std430) readonly buffer Starts {
+  uint starts[];
+};  // [cluster 0..N]
+layout(set = 0, binding = AFTER_MAPS + 2, scalar) buffer Unfinished { Moments unfinished[]; };  // [cluster]
+layout(set = 0, binding = AFTER_MAPS + 3, scalar) writeonly buffer Lights { Vsgl lights[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint clusters;  // N

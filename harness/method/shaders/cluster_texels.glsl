@@ -1,11 +1,13 @@
-// The sorted texels of a half (bindings 0 to 5) and the moments of a block of them.
+// The sorted texels of a half (first after its maps) and the moments of a block of them.
 #ifndef VSGLBENCH_CLUSTER_TEXELS_GLSL
 #define VSGLBENCH_CLUSTER_TEXELS_GLSL
 
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "cluster_sum.glsl"
-layout(set = 0, binding = 5, std430) readonly buffer Texels { uint texels[]; };  // y * width + x, by cluster
+layout(set = 0, binding = AFTER_MAPS, std430) readonly buffer Texels {
+  uint texels[];
+};  // y * width + x, by cluster
 
 // Texel `i` of a row-major image. A vector division is slow where it is done lane by lane; the quotient in
 // floats is at most one off.

@@ -9,8 +9,10 @@ layout(set = 0, binding = 0, std430) readonly buffer Pdf { float pdf[]; };
 #define MOMENTS_BINDING 1
 #include "moments_buffers.glsl"
 #include "warp.glsl"
-layout(set = 0, binding = 6, scalar) writeonly buffer Lights { Vsgl lights[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer Squares { vec4 squares[]; };  // LightShapes
+layout(set = 0, binding = AFTER_MOMENTS, scalar) writeonly buffer Lights { Vsgl lights[]; };
+layout(set = 0, binding = AFTER_MOMENTS + 1, std430) writeonly buffer Squares {
+  vec4 squares[];
+};  // LightShapes
 layout(push_constant, scalar) uniform Push {
   uint width, height;
   uint count;  // N

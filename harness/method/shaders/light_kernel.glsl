@@ -1,15 +1,15 @@
 // One invocation a light (method/light_kernel.h). The including kernel defines
-//   LIGHT make_light(uint i)   the i-th of `count` lights; LIGHT is Vsgl or Vpl
+//   LIGHT make_light(uint i)   the i-th of `count` lights; LIGHT is the record of its kind
 // and reads: emitter, count, parameter[0..3]; draw(), load_texel(), leaf_moments(), merge(), make_vsgl(),
 // no_light(), make_vpl().
 #include "types.h"
 layout(local_size_x = 64) in;
 #include "field_maps.glsl"
 #include "field.glsl"
-layout(set = 0, binding = 5, std430) readonly buffer Pdf { float pdf[]; };
+layout(set = 0, binding = AFTER_MAPS, std430) readonly buffer Pdf { float pdf[]; };
 #define PDF(i) pdf[i]
 #include "warp.glsl"
-layout(set = 0, binding = 6, scalar) writeonly buffer Lights { LIGHT lights[]; };
+layout(set = 0, binding = AFTER_MAPS + 1, scalar) writeonly buffer Lights { LIGHT lights[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint count;  // N

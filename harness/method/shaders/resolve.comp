@@ -3,7 +3,7 @@
 #include "types.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "field_maps.glsl"
-#define MOMENTS_BINDING 5
+#define MOMENTS_BINDING AFTER_MAPS
 #include "field.glsl"
 #include "moments_buffers.glsl"
 layout(push_constant, scalar) uniform Push { Emitter emitter; };

@@ -1,14 +1,12 @@
-// Lights as shading sees them. LIGHT_VPL 1: Vpl records, 0: Vsgl. LIGHT_VSL 1: the Vpl records are virtual
-// spherical lights.
+// Lights as shading sees them (light_record.glsl). LIGHT_VSL 1: the Vpl records are virtual spherical lights.
+#include "light_record.glsl"
 #if LIGHT_VPL
 #include "brdf.glsl"
 #include "vpl_shading.glsl"
-#define Light Vpl
 #define Shader Surface
 Shader make_shader(Surface s) { return s; }
 #else
 #include "vsgl_shading.glsl"
-#define Light Vsgl
 #define Shader Receiver
 Shader make_shader(Surface s) { return make_receiver(s); }
 #endif

@@ -1,0 +1,38 @@
+// Parameters of a case that are not the method's own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frame/shading.h"
+#include "frame/visibility.h"
+
+namespace vsglbench {
+
+// Whose lights on the G-buffer make the PDF on the RSM: the method's own; VSGLs [VSGL14 §3] or VPLs, as the
+// first BRSM had it (Ritschel et al. 2011) [VSGL14 Fig. 4a], of the method that says that it makes importance
+// by them; or nobody's: the power that each texel reflects.
+enum class Importance { own, vsgl, vpl, flux };
+const std::vector<std::string>& importance_names();    // in the order of the enumeration
+Importance parse_importance(const std::string& name);  // throws Error(config)
+
+struct FrameParameters {
+  uint32_t width = 480, height = 272;  // G-buffer
+  uint32_t rsm = 256;                  // RSM, texels a side
+  uint32_t lights = 256;               // N
+  uint32_t importance_lights = 2048;   // on the G-buffer; at most its number of pixels is used
+  Visibility visibility = Visibility::exact;
+  IsmParameters ism;
+  Shading shading;           // of VSGLs
+  float bias_reduction = 0;  // α of [VSGL14 §3.3], of VSGLs; 0: none
+  Importance importance = Importance::own;
+  // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
+  // [VSGL14 §5].
+  uint32_t progressive = 1;
+  // Every pass is submitted by itself and what it wrote is looked at: see Frame::bad_output(). Times of such
+  // a frame are not comparable.
+  bool check_passes = false;
+};
+
+}  // namespace vsglbench

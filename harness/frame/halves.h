@@ -1,0 +1,34 @@
+// Both halves of a frame: the G-buffer, which the eye sees, and the RSM, which the primary light sees.
+#pragma once
+
+#include <array>
+
+#include "frame/stage.h"
+
+namespace vsglbench {
+
+class Halves {
+ public:
+  Halves(Stage& stage, uint32_t width, uint32_t height, uint32_t rsm);
+  // Rasterises both.
+  void draw(Recorder& recorder) const;
+
+  const DeferredTargets& targets(Half half) const { return *of(half).targets; }
+  const gpu::Emitter& emitter(Half half) const { return of(half).emitter; }
+  const Buffer& emitter_buffer(Half half) const { return of(half).buffer; }
+  uint64_t texels(Half half) const { return uint64_t(emitter(half).width) * emitter(half).height; }
+  Field field(Half half, const Buffer* pdf) const;
+
+ private:
+  struct Seen {
+    View view;
+    DeferredTargets* targets = nullptr;
+    gpu::Emitter emitter{};
+    Buffer buffer;  // the emitter, for shaders
+  };
+  const Seen& of(Half half) const { return seen_[static_cast<size_t>(half)]; }
+  Stage& stage_;
+  std::array<Seen, 2> seen_;
+};
+
+}  // namespace vsglbench

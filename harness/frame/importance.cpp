@@ -1,0 +1,116 @@
+#include "frame/importance.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "frame/light_ranges.h"
+#include "method/filtered_sampling.h"
+#include "method/registry.h"
+
+namespace vsglbench {
+
+const std::vector<std::string>& importance_names() {
+  static const std::vector<std::string> names = {"own", "vsgl", "vpl", "flux"};
+  return names;
+}
+
+Importance parse_importance(const std::string& name) {
+  const auto& names = importance_names();
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it != names.end()) return static_cast<Importance>(it - names.begin());
+  throw fail(ErrorKind::config, "no importance '{}'{}", name, suggestion(name, names));
+}
+
+ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const LightGenerator& own,
+                               const FrameParameters& p)
+    : stage_(stage), halves_(halves), shading_(p.shading) {
+  if (p.importance == Importance::flux) return;
+  if (p.importance != Importance::own) {
+    const LightKind kind = p.importance == Importance::vsgl ? LightKind::vsgl : LightKind::vpl;
+    const MethodInfo& info = load_method(find_importance_maker(kind).name, stage.device.info());
+    other_ =
+        std::make_unique<LightGenerator>(stage, info, resolve_parameters(info, Json::object()), shading_);
+  }
+  const auto wanted = std::clamp<uint64_t>(p.importance_lights, 1, halves.texels(Half::gbuffer));
+  lights_.emplace(stage, halves, other_ ? *other_ : own, Half::gbuffer, static_cast<uint32_t>(wanted));
+}
+
+size_t ImportancePass::pdf_bytes(Half half) const {
+  const gpu::Emitter& e = halves_.emitter(half);
+  return pyramid_texels(e.width, e.height) * sizeof(float);
+}
+
+const Buffer& ImportancePass::pdf(Half half) const {
+  return stage_.memory.pdf[static_cast<size_t>(half)].get(
+      stage_.device, fmt::format("pdf.{}", half_name(half)), pdf_bytes(half));
+}
+
+std::vector<float> ImportancePass::read(Half half) const {
+  return pdf(half).download<float>(halves_.texels(half));
+}
+
+unsigned ImportancePass::record(Recorder& r, glm::uvec2 shift) {
+  drawn_from_own_ = true;
+  if (!lights_) {
+    r.pass({PassStage::importance, Half::rsm, ""}, [&] { draw_reflectance(r, Half::rsm); });
+    return 0;
+  }
+  // 1. The eye's PDF on the G-buffer: reflectance.
+  r.pass({PassStage::importance, Half::gbuffer, ""}, [&] { draw_reflectance(r, Half::gbuffer); });
+  // 2. Lights on the G-buffer.
+  const unsigned dispatches = lights_->generate(r, &pdf(Half::gbuffer), shift);
+  // 3. What they are worth at every RSM texel.
+  r.pass({PassStage::importance, Half::rsm, ""}, [&] { gather(r); });
+  return dispatches;
+}
+
+unsigned ImportancePass::generate(Recorder& recorder, const KeptPdfs& pdfs, glm::uvec2 shift) {
+  drawn_from_own_ = false;
+  return lights_ ? lights_->generate(recorder, &pdfs.gbuffer, shift) : 0;
+}
+
+KeptPdfs ImportancePass::keep() const {
+  const auto keep = [&](Half half, const char* name) {
+    Buffer kept(stage_.device, name, pdf_bytes(half));
+    kept.upload(std::span<const float>(pdf(half).download<float>(pdf_bytes(half) / sizeof(float))));
+    return kept;
+  };
+  return {keep(Half::gbuffer, "kept pdf.gbuffer"), keep(Half::rsm, "kept pdf.rsm")};
+}
+
+void ImportancePass::draw_reflectance(Recorder& r, Half half) const {
+  const Field f = halves_.field(half, nullptr);
+  r.dispatch(stage_.kernels.get(frame_kernel("pdf_reflectance.comp")), {f.maps, pdf(half)}, f.emitter,
+             groups_for(f.emitter.width, 8), groups_for(f.emitter.height, 8));
+  build_mips(r, half);
+}
+
+void ImportancePass::gather(Recorder& r) const {
+  const Field f = halves_.field(Half::rsm, nullptr);
+  const Kernel& kernel =
+      stage_.kernels.get(frame_kernel("importance.comp"), light_defines(lights_->kind(), shading_));
+  for (const LightRange& range : light_ranges(lights_->count(), most_lights_of_a_dispatch)) {
+    const struct {
+      gpu::Emitter emitter;
+      LightRange range;
+    } push{f.emitter, range};
+    if (range.first > 0) r.barrier();
+    r.dispatch(kernel, {f.maps, lights_->buffer(), pdf(Half::rsm)}, push, groups_for(f.emitter.width, 8),
+               groups_for(f.emitter.height, 8));
+  }
+  build_mips(r, Half::rsm);
+}
+
+void ImportancePass::build_mips(Recorder& r, Half half) const {
+  const Kernel& mip = stage_.kernels.get(frame_kernel("pdf_mip.comp"));
+  const uint32_t w = halves_.emitter(half).width, h = halves_.emitter(half).height;
+  for (uint32_t level = 1; level <= pyramid_top(w, h); ++level) {
+    const struct { uint32_t width, height, level; } push{w, h, level};
+    r.barrier();
+    r.dispatch(mip, {pdf(half)}, push, groups_for(groups_for(w, 1u << level), 8),
+               groups_for(groups_for(h, 1u << level), 8));
+  }
+}
+
+}  // namespace vsglbench

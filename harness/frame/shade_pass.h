@@ -1,0 +1,62 @@
+// Shading: the light sets' radiance at every pixel, each light through its visibility.
+#pragma once
+
+#include <vector>
+
+#include "frame/frame_parameters.h"
+#include "frame/half_lights.h"
+
+namespace vsglbench {
+
+// Push constants of shade.comp, which says what they mean.
+struct ShadePush {
+  gpu::Emitter emitter;
+  uint32_t first = 0, count = 0, words = 0, accumulate = 0, map_size = 0;
+  float map_tolerance = 0;
+  uint32_t random = 0;
+  float radius2_scale = 1, weight = 1, alpha = 0;
+};
+
+// Defines of shade.comp for lights of this kind, but for VISIBILITY and BIAS_REDUCTION.
+ShaderDefines shade_defines(LightKind kind, const Shading& shading);
+
+class ShadePass {
+ public:
+  // `lights`: on the RSM. `exact` is called for Visibility::exact only.
+  ShadePass(Stage& stage, const Halves& halves, const HalfLights& lights, const FrameParameters& parameters,
+            ExactVisibility exact);
+
+  // The host's shadow rays to the lights that were just made, unless they are the last ones.
+  void trace();
+  // Passes shade.texels, visibility.* and shade; iterations after the first add to what is there.
+  void record(Recorder& recorder, uint32_t seed, uint32_t iteration);
+
+  // vec4 a pixel: radiance, and what shade.comp says of it.
+  const Buffer& indirect() const;
+  bool reduces_bias() const;
+
+ private:
+  // Whether what is nearer to a VSGL's mean than its standard deviation is no occluder.
+  bool clears_sigma() const { return chosen(parameters_.shading, "light_clearance") == "sigma"; }
+  // Bias reduction and unfiltered lobes need a texel for each light.
+  bool needs_light_texels() const;
+  std::vector<LightPoint> light_points() const;
+  const Buffer& light_texels(Recorder& recorder) const;
+  // Lights of one dispatch, and what it binds for their visibility.
+  struct Sight {
+    uint32_t most_lights;
+    std::vector<const Buffer*> bits;  // of each range of lights
+  };
+  Sight see(Recorder& recorder, ShadePush* push, Bindings* bound) const;
+  Sight upload_bits(uint32_t words) const;
+
+  Stage& stage_;
+  const Halves& halves_;
+  const HalfLights& lights_;
+  const FrameParameters& parameters_;
+  ExactVisibility exact_;
+  std::vector<LightPoint> traced_;  // the lights whose bits are in bits_
+  std::vector<uint32_t> bits_;
+};
+
+}  // namespace vsglbench

@@ -1,0 +1,24 @@
+#include "frame/stage.h"
+
+#include "base/file.h"
+
+namespace vsglbench {
+
+std::filesystem::path frame_kernel(const char* file) { return data_root() / "harness" / "frame" / file; }
+
+Stage::Stage(Device& d, KernelLibrary& k, const Scene& s)
+    : device(d), kernels(k), scene(s), scratch(d), geometry(d, s) {}
+
+DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height) {
+  auto& slot = targets_[{half, width, height}];
+  if (!slot) slot = std::make_unique<DeferredTargets>(device, half_name(half), width, height);
+  return *slot;
+}
+
+ImperfectShadowMaps& Stage::shadow_maps(Visibility technique, const IsmParameters& p) {
+  auto& slot = shadow_maps_[{technique, p.size, p.points}];
+  if (!slot) slot = std::make_unique<ImperfectShadowMaps>(kernels, memory.shadow_maps, scene, technique, p);
+  return *slot;
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,47 @@
+// What one scene's cases share: geometry, targets, kernels and memory.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "frame/scene_gpu.h"
+#include "frame/visibility.h"
+#include "method/context.h"
+#include "method/method.h"
+
+namespace vsglbench {
+
+// Of frames, apart from the methods' own. Every frame overwrites it.
+struct FrameMemory {
+  std::array<GrowingBuffer, 2> pdf;  // by half
+  // By half and size: a method may clear its whole buffer, and what lies behind its lights is watched.
+  std::array<std::map<size_t, GrowingBuffer>, 2> lights;
+  GrowingBuffer light_texels, indirect, direct;
+  std::map<size_t, GrowingBuffer> visibility;  // bits, by range of lights
+  ShadowMapMemory shadow_maps;
+};
+
+class Stage {
+ public:
+  Stage(Device& device, KernelLibrary& kernels, const Scene& scene);
+  Device& device;
+  KernelLibrary& kernels;
+  const Scene& scene;
+  ScratchPool scratch;  // of methods
+  FrameMemory memory;
+  SceneGpu geometry;
+  DeferredTargets& targets(Half half, uint32_t width, uint32_t height);
+  ImperfectShadowMaps& shadow_maps(Visibility technique, const IsmParameters& parameters);
+
+ private:
+  std::map<std::tuple<Half, uint32_t, uint32_t>, std::unique_ptr<DeferredTargets>> targets_;
+  std::map<std::tuple<Visibility, uint32_t, uint32_t>, std::unique_ptr<ImperfectShadowMaps>> shadow_maps_;
+};
+
+// A kernel of this room.
+std::filesystem::path frame_kernel(const char* file);
+
+}  // namespace vsglbench
