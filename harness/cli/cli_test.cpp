@@ -106,7 +106,7 @@ TEST_F(CliTest, NoDriverIsExitCode3) {
 
 TEST_F(CliTest, AnUnknownDeviceIsExitCode3) {
   expect_refused(run({"run", write_config().string(), "--out", out_.string(), "--device", "nonesuch"}), 3,
-                 "no device 'nonesuch'; known, by index and name: 0: ");
+                 "no device 'nonesuch'; known: 0: ");
   expect_refused(run({"run", write_config().string(), "--out", out_.string(), "--device", "77"}), 3,
                  "no device '77'");
 }

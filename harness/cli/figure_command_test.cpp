@@ -80,7 +80,7 @@ TEST_F(FigureCommand, WritesTablePlotPictureAndWhereTheyAreFrom) {
     EXPECT_NE(f.out.find((folder_ / name).string()), std::string::npos) << f.out;
     EXPECT_GT(std::filesystem::file_size(folder_ / name), 100u) << name;
   }
-  EXPECT_TRUE(read_text(folder_ / "sgl22-1.csv").starts_with("kernel,origin,smape_percent"));
+  EXPECT_TRUE(read_text(folder_ / "sgl22-1.csv").starts_with("model,origin,smape_percent"));
   EXPECT_NE(f.out.find("[SGL22] Fig. 1 holds"), std::string::npos) << f.out;
   const Json report = JsonDocument::load(folder_ / "sgl22-1.json", ErrorKind::output).root();
   EXPECT_EQ(report["config"]["width"], 48);

@@ -102,7 +102,7 @@ int report_random(SgEvaluator& evaluator, const SgOptions& o, const std::vector<
   const size_t first = spread.impossible.front();
   fmt::print("{} rows are impossible, the first is {}: {}\n", spread.impossible.size(),
              impossible(q, a, first), reproducer(q, shrink(evaluator, row_of(q, rows, first))));
-  return static_cast<int>(ErrorKind::case_failed);
+  return exit_code(ErrorKind::case_failed);
 }
 
 int evaluate(const SgOptions& o) {

@@ -12,7 +12,7 @@
 namespace vsglbench {
 namespace {
 
-// Of an error that no input is to blame for, such as a kernel that doesn't compile.
+// What stands behind an error that no input is to blame for, such as a kernel that doesn't compile.
 constexpr const char* kEarly = "before its first input";
 
 void add(const CheckNews& news, CheckResult* result) {

@@ -32,7 +32,7 @@ const std::string& figure_name(const JsonDocument& document) {
   return figure.get_ref<const std::string&>();
 }
 
-// Of a scene that is named, its view, too; what a path leads to shows when it is loaded.
+// A scene that is named is checked with its view; what a path leads to shows when it is loaded.
 void check_scene_name(const JsonDocument& document) {
   const std::string scene = document.root().at("scene");
   const auto [name, chosen] = parse_scene_name(scene);

@@ -39,9 +39,9 @@ class Frame {
   // Direct light of the current view, outside any timing.
   Image render_direct();
 
-  // Of the last render(); lights and powers also of the last generate_only().
+  // What the last render() made; lights and powers also of the last generate_only().
   const FrameReadback& results() const { return results_; }
-  // Of the last watched frame: FrameWatch::fault().
+  // The fault of the last watched frame: FrameWatch::fault().
   const std::string& memory_fault() const { return watch_.fault(); }
   // With check_passes: the first NaN or Inf that a pass of the last render() or generate_only() wrote,
   // whether or not it is still there at the end.

@@ -15,7 +15,7 @@ namespace vsglbench {
 // gpu::Vpl.
 glm::dvec3 lobe_reflectance(const glm::vec3& diffuse, const glm::vec3& f0, double ndf, double cosine);
 
-// Of both lobes of a VSGL, ∫ c G = c A(λ); of a VPL or VSL, whose flux is incident, Φ (Rd + Rs).
+// The flux of both lobes of a VSGL, ∫ c G = c A(λ); of a VPL or VSL, whose flux is incident, Φ (Rd + Rs).
 glm::dvec3 lobe_power(const gpu::Vsgl& light);  // by channel
 double reflected_power(const gpu::Vsgl& light);
 double reflected_power(const gpu::Vpl& light);

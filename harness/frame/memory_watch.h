@@ -31,7 +31,7 @@ class MemoryWatch {
   std::vector<Armed> armed_;
 };
 
-// Of `words`, an array of records of `stride` words each: which records hold a word that nobody wrote. Words
+// Which records of `words`, an array of records of `stride` words each, hold a word that nobody wrote. Words
 // of `unused` may hold anything.
 struct Unwritten {
   size_t first = 0, records = 0;  // records is 0 where all are written

@@ -61,7 +61,7 @@ class Finding {
       bad.field = field;
       bad.is_nan = is_nan(bits);
     }
-    // Of an element's numbers a NaN counts before an Inf.
+    // A NaN among an element's numbers counts before an Inf.
     const bool same = last_ == element;
     if (!same) ++(is_nan(bits) ? bad.nan : bad.inf);
     if (same && !last_is_nan_ && is_nan(bits)) {

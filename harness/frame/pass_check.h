@@ -65,7 +65,7 @@ class PassCheck : public PassObserver {
 
   FrameOutputs outputs_;
   std::optional<BadOutput> bad_;
-  // Of this frame. A buffer that has grown under the same name is another one.
+  // What this frame has looked at. A buffer that has grown under the same name is another one.
   std::set<std::tuple<const Buffer*, VkBuffer, size_t>> used_;
 };
 

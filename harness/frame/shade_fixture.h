@@ -132,7 +132,7 @@ class ShadeTest : public ::testing::Test {
     return out.download<glm::vec4>(pixels_.size());
   }
 
-  // Of every pixel, the sum over `lights` of shade_one(pixel, light).
+  // For every pixel, the sum over `lights` of shade_one(pixel, light).
   template <class Light, class ShadeOne>
   std::vector<dvec3> on_host(const std::vector<Light>& lights, const ShadeOne& shade_one) {
     std::vector<dvec3> sums(pixels_.size(), dvec3(0));

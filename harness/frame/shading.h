@@ -24,7 +24,7 @@ std::string chosen(const Shading& shading, const std::string& key);
 // Throws Error(config) naming the nearest choice.
 void check_shading_choice(const std::string& key, const std::string& choice);
 
-// Of the choices that are not their default: kernels of the default carry no define.
+// The defines of the choices that are not their default: kernels of the default carry no define.
 ShaderDefines shading_defines(const Shading& shading);
 
 }  // namespace vsglbench

@@ -14,7 +14,7 @@
 
 namespace vsglbench {
 
-// Of frames, apart from the methods' own. Every frame overwrites it.
+// The memory of frames, apart from the methods' own. Every frame overwrites it.
 struct FrameMemory {
   std::array<GrowingBuffer, 2> pdf;  // by half
   // By half and size: a method may clear its whole buffer, and what lies behind its lights is watched.

@@ -74,8 +74,9 @@ class ImperfectShadowMaps {
   // mean than its standard deviation is no occluder.
   Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count,
              const DeferredTargets& seen, bool clears_sigma = false);
-  // Of all buffers for `count` lights, beside the scene as the rasteriser has it: what points are made from
-  // (for aism and tism with a copy of positions and triangles), maps with their pyramids, and frames.
+  // The bytes of all buffers for `count` lights, beside the scene as the rasteriser has it: what points are
+  // made from (for aism and tism with a copy of positions and triangles), maps with their pyramids, and
+  // frames.
   size_t memory_bytes(uint32_t count) const;
 
  private:

@@ -42,7 +42,7 @@ struct Reflected {
   std::map<uint32_t, Variable> variables;
   bool infinite_constant = false;
 
-  // Of an array type with a length; 0 where a specialisation constant sets it.
+  // The length of an array type that has one; 0 where a specialisation constant sets it.
   uint32_t length(uint32_t array) const {
     const auto known = constants.find(types.at(array)[3]);
     return known == constants.end() ? 0 : known->second;

@@ -18,7 +18,7 @@ uint64_t lit_pixels(const Bitmap& bitmap) {
   return n;
 }
 
-// Of a sheet that has one page.
+// The picture of a sheet that has one page.
 Bitmap contact_sheet(const ContactSheet& sheet) {
   auto pages = contact_pages(sheet);
   EXPECT_EQ(pages.size(), 1u);

@@ -11,7 +11,7 @@
 namespace vsglbench {
 namespace {
 
-// Of Okabe and Ito's palette: the colour-blind tell them apart, and both from grey.
+// Colours of Okabe and Ito's palette: the colour-blind tell them apart, and both from grey.
 constexpr glm::u8vec3 kPoint{230, 159, 0}, kOutline{86, 180, 233};
 constexpr uint32_t kMargin = 12, kLine = 22;
 constexpr double kText = 16, kLabel = 15;

@@ -81,8 +81,8 @@ TEST_P(FilteredSamplingOracle, MatchesDouble) {
   const auto lights = bench.lights<gpu::Vsgl>(half, count, shift);
   std::vector<double> differences;
   for (uint32_t i = 0; i < count; ++i) {
-    const LightRule rule = find_method(method).light_rule;
-    const auto c = oracle::filtered_light(half, pyramid, rule, k, count, lattice_point(i, count, shift));
+    const auto c = oracle::filtered_light(half, pyramid, bench.info().light_rule, k, count,
+                                          lattice_point(i, count, shift));
     differences.push_back(difference(lights[i], c));
   }
   EXPECT_LT(worst_but(differences, count / 100), 1e-4);

@@ -85,8 +85,8 @@ class Steps {
 struct LightShapes {
   // A vec4 a light: centre x, y and side of its footprint in texels; side 0: no light.
   const Buffer* squares = nullptr;
-  // Of a partition, two uints a texel: the light it belongs to (at least the number of lights: none), and its
-  // y * width + x; `texels` null: in the order of the texels.
+  // For a partition, two uints a texel: the light it belongs to (at least the number of lights: none), and
+  // its y * width + x; `texels` null: in the order of the texels.
   const Buffer *ids = nullptr, *texels = nullptr;
 };
 
@@ -99,7 +99,7 @@ class Method {
   // How many lights it makes from a half of `texels` texels when asked for `wanted`.
   virtual uint32_t light_count(uint32_t wanted, uint64_t /*texels*/) const { return wanted; }
   virtual void generate(Steps& steps, const Field& field, const LightTarget& target) = 0;
-  // Of the last generate() of that half, once the device has finished it.
+  // The shapes of the last generate() of that half, once the device has finished it.
   virtual LightShapes shapes(Half) { return {}; }
 };
 

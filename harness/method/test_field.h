@@ -40,6 +40,8 @@ class MethodBench {
     return out.download<Light>(count);
   }
 
+  const MethodInfo& info() const { return info_; }
+
  private:
   KernelLibrary kernels_;
   ScratchPool scratch_;

@@ -7,7 +7,7 @@
 #if LIGHT_VPL
 #define Light Vpl
 vec3 light_position(Light light) { return light.position; }
-// Of its shadow map; w 0: it shines into the hemisphere about xyz, 1: into all directions.
+// What its shadow map is about; w 0: it shines into the hemisphere about xyz, 1: into all directions.
 vec4 light_axis(Light light) { return vec4(light.geometric_normal, 0.0); }
 // σ of a cluster, m; 0: a point.
 float light_sigma(Light light) { return 0.0; }
