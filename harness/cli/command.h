@@ -26,5 +26,8 @@ void add_metrics_command(CLI::App& app, CommandResult* result);
 void add_sg_command(CLI::App& app, CommandResult* result);
 void add_stability_command(CLI::App& app, CommandResult* result);
 void add_table_command(CLI::App& app);
+void add_answer_command(CLI::App& app);
+void add_compare_command(CLI::App& app, CommandResult* result);
+void add_export_command(CLI::App& app);
 
 }  // namespace vsglbench

@@ -100,6 +100,9 @@ int main(int argc, char** argv) {
   add_figure_command(app, arguments, &result);
   add_stability_command(app, &result);
   add_table_command(app);
+  add_answer_command(app);
+  add_compare_command(app, &result);
+  add_export_command(app);
   for (CLI::App* command : app.get_subcommands({})) {
     command->fallthrough();  // -q and the like may come last
     refuse_no_numbers(command);

@@ -20,7 +20,7 @@ struct TableCommand {
 
 void print(const TableCommand& command) {
   for (const fs::path& path : command.paths) {
-    const Report report = read_report(fs::is_directory(path) ? path / "report.json" : path);
+    const Report report = read_report_at(path);
     fmt::print("{}", command.markdown ? markdown_table(report, command.table)
                                       : terminal_table(report, command.table));
   }

@@ -1,10 +1,12 @@
 #include "gpu/recorder.h"
 
+#include <chrono>
 #include <utility>
 
 #include "base/error.h"
 #include "gpu/check.h"
 #include "gpu/loop_check.h"
+#include "gpu/timestamps.h"
 
 namespace vsglbench {
 
@@ -128,8 +130,10 @@ void Recorder::submit() {
   VK_CHECK(vkEndCommandBuffer(commands_));
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands_};
+  const auto submitted = std::chrono::steady_clock::now();
   VK_CHECK(vkQueueSubmit(device_.queue(), 1, &submit, state_->fence));
   VK_CHECK(vkWaitForFences(device_.handle(), 1, &state_->fence, VK_TRUE, UINT64_MAX));
+  const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - submitted;
   VK_CHECK(vkResetFences(device_.handle(), 1, &state_->fence));
   if (LoopCheck* check = LoopCheck::of(device_)) check->report();
 
@@ -138,16 +142,16 @@ void Recorder::submit() {
   VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(stamps.size()),
                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
-  const uint32_t bits = device_.info().timestamp_valid_bits;
-  const uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
-  const double ms_per_tick = static_cast<double>(device_.info().timestamp_period_ns) * 1e-6;
-  const auto milliseconds = [&](uint64_t from, uint64_t to) {
-    return static_cast<double>((to - from) & mask) * ms_per_tick;
-  };
-  for (size_t i = 0; i < passes_.size(); ++i) {
-    state_->times.passes.push_back({passes_[i], milliseconds(stamps[2 * i], stamps[2 * i + 1])});
+  const TimestampClock clock{static_cast<double>(device_.info().timestamp_period_ns) * 1e-6,
+                             device_.info().timestamp_valid_bits};
+  if (const std::string fault = timestamp_fault(stamps, clock, waited.count()); !fault.empty()) {
+    throw fail(ErrorKind::case_failed, "pass {}: the device's clock can't be true: {}", passes_.front(),
+               fault);
   }
-  state_->times.span_ms += milliseconds(stamps.front(), stamps.back());
+  for (size_t i = 0; i < passes_.size(); ++i) {
+    state_->times.passes.push_back({passes_[i], clock.milliseconds(stamps[2 * i], stamps[2 * i + 1])});
+  }
+  state_->times.span_ms += clock.milliseconds(stamps.front(), stamps.back());
 }
 
 }  // namespace vsglbench

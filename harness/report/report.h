@@ -297,5 +297,7 @@ void write_report(const std::filesystem::path& path, const Report& report);
 // For resuming and comparing. Throws Error(config) with file and line when it is damaged or disobeys the
 // schema.
 Report read_report(const std::filesystem::path& path);
+// The same of a report's folder, or of its file.
+Report read_report_at(const std::filesystem::path& file_or_folder);
 
 }  // namespace vsglbench
