@@ -25,12 +25,15 @@ void add_export_command(CLI::App& app) {
   auto options = std::make_shared<ExportCommand>();
   CLI::App* command = app.add_subcommand("export", "a report in the formats of other dashboards");
   command->footer(
-      "bencher           Bencher Metric Format: latency (ns, of the method's passes), frame-latency, smape, rmse, flip\n"
+      "bencher           Bencher Metric Format: latency (ns, of the method's passes), frame-latency, smape, "
+      "rmse, flip\n"
       "github-action     github-action-benchmark's customSmallerIsBetter: ms and % alone\n"
-      "google-benchmark  as Google Benchmark's JSON: real_time is the median of the method's passes, errors are counters\n"
+      "google-benchmark  as Google Benchmark's JSON: real_time is the median of the method's passes, errors "
+      "are counters\n"
       "Example: vsglbench export reports/quick-lavapipe --format bencher --out metrics.json");
   command->add_option("report", options->report, "report.json, or its folder")->required();
-  command->add_option("--format", options->format, fmt::format("{}", fmt::join(export_formats(), ", ")))->required();
+  command->add_option("--format", options->format, fmt::format("{}", fmt::join(export_formats(), ", ")))
+      ->required();
   command->add_option("--out", options->out, "file (default: standard output)");
   command->callback([=] { write(*options); });
 }

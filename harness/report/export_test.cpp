@@ -10,7 +10,8 @@ namespace {
 
 Report report() {
   Report r;
-  r.cases = {synthetic_case("cornell/mfis/N=256"), synthetic_failure("cornell/vpl/N=256", Status::failed, "no")};
+  r.cases = {synthetic_case("cornell/mfis/N=256"),
+             synthetic_failure("cornell/vpl/N=256", Status::failed, "no")};
   return r;
 }
 
