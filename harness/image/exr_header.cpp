@@ -17,11 +17,30 @@ struct TypeSize {
   uint32_t bytes;
 };
 constexpr TypeSize kTypeSizes[] = {
-    {"box2f", 16},         {"box2i", 16},  {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1},
-    {"double", 8},         {"envmap", 1},  {"float", 4},           {"int", 4},         {"keycode", 28},
-    {"lineOrder", 1},      {"m33d", 72},   {"m33f", 36},           {"m44d", 128},      {"m44f", 64},
-    {"rational", 8},       {"tiledesc", 9}, {"timecode", 8},       {"v2d", 16},        {"v2f", 8},
-    {"v2i", 8},            {"v3d", 24},    {"v3f", 12},            {"v3i", 12},
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
 };
 constexpr size_t kLongestName = 255;
 constexpr size_t kChannelBytes = 16;  // its pixel type, a flag, 3 bytes unused, and two samplings
@@ -84,7 +103,8 @@ bool check_attribute(Cursor& file) {
         fmt::format("its attribute '{}' states {} bytes where {} are left", name, size, file.left()));
   }
   // OpenEXR 3.1 reads another number of bytes than it writes of this type.
-  if (type == "idmanifest") throw std::runtime_error(fmt::format("its attribute '{}' is an idmanifest", name));
+  if (type == "idmanifest")
+    throw std::runtime_error(fmt::format("its attribute '{}' is an idmanifest", name));
   if (!fills(type, file.take(size))) {
     throw std::runtime_error(
         fmt::format("its attribute '{}' states {} bytes, not those of its type '{}'", name, size, type));

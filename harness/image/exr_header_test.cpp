@@ -34,11 +34,30 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-const char* const kTypesOfOneSize[] = {"box2f",    "box2i",    "chromaticities", "compression", "deepImageState",
-                                       "double",   "envmap",   "float",          "int",         "keycode",
-                                       "lineOrder", "m33d",    "m33f",           "m44d",        "m44f",
-                                       "rational", "tiledesc", "timecode",       "v2d",         "v2f",
-                                       "v2i",      "v3d",      "v3f",            "v3i"};
+const char* const kTypesOfOneSize[] = {"box2f",
+                                       "box2i",
+                                       "chromaticities",
+                                       "compression",
+                                       "deepImageState",
+                                       "double",
+                                       "envmap",
+                                       "float",
+                                       "int",
+                                       "keycode",
+                                       "lineOrder",
+                                       "m33d",
+                                       "m33f",
+                                       "m44d",
+                                       "m44f",
+                                       "rational",
+                                       "tiledesc",
+                                       "timecode",
+                                       "v2d",
+                                       "v2f",
+                                       "v2i",
+                                       "v3d",
+                                       "v3f",
+                                       "v3i"};
 
 // A header with a value of each of OpenEXR's types.
 Imf::Header rich_header() {
