@@ -54,6 +54,16 @@ TEST_F(SgCommand, WritesWhatItReadWithValueExactAndError) {
       << product.out;
 }
 
+TEST_F(SgCommand, SkipsAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF", header = "cosine,sharpness\n";
+  const Finished f = run(mark + header + "0.5,1.5\n");
+  ASSERT_EQ(f.code, 0) << f.err;
+  EXPECT_EQ(f.out, run(header + "0.5,1.5\n").out);
+  expect_refused(mark + mark + header, "in.csv:1: the header is not");
+  expect_refused(mark, "in.csv:1: the header is not");
+  expect_refused(header + mark + "0.5,1.5\n", "in.csv:2: cosine");
+}
+
 TEST_F(SgCommand, RefusesBadInputWithFileAndLine) {
   expect_refused("", "in.csv:1: empty; the first line is \"cosine,sharpness\"");
   expect_refused("cos,sharpness\n", "in.csv:1: the header is not \"cosine,sharpness\"");

@@ -16,10 +16,7 @@ namespace {
 
 struct Folder {
   Folder() {
-    std::error_code ec;
-    const fs::path memory = "/dev/shm";
-    std::string pattern =
-        (fs::is_directory(memory, ec) ? memory : fs::temp_directory_path()) / "vsglbench-fuzz-XXXXXX";
+    std::string pattern = fs::temp_directory_path() / "vsglbench-fuzz-XXXXXX";
     if (!::mkdtemp(pattern.data())) throw std::runtime_error("no folder for the inputs");
     path = pattern;
     owner = ::getpid();

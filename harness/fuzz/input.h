@@ -8,8 +8,9 @@
 
 namespace vsglbench::fuzz {
 
-// A folder of this process, in memory where the system has such a place, removed as the process ends. It is
-// also the data folder (with harness/ and scenes/ of the real one) and the cache.
+// A folder of this process in the system's folder for temporary files. It is also the data folder (with
+// harness/ and scenes/ of the real one) and the cache. It is removed as the process exits; libFuzzer ends
+// without an exit where it found something, and ci/fuzz removes what is left then.
 const std::filesystem::path& folder();
 
 // folder()/NAME with these bytes.

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "image/exr_header.h"
 
 namespace fs = std::filesystem;
 
@@ -161,7 +162,8 @@ std::vector<std::string> color_layers(const Imf::ChannelList& channels) {
 }
 
 ExrLayers decode(const std::vector<uint8_t>& bytes) {
-  // Refuse absurd sizes before the library makes its tables for them.
+  // Refuse absurd sizes before the library makes room for them.
+  check_exr_headers(bytes);
   Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
   MemoryInput memory(bytes);
   Imf::InputFile file(memory);

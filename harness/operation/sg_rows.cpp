@@ -9,6 +9,9 @@
 namespace vsglbench {
 namespace {
 
+// What spreadsheets write before UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 // "a, b" to {"a", "b"}; spaces around a cell are no part of it.
 std::vector<std::string_view> cells(std::string_view line) {
   std::vector<std::string_view> out;
@@ -35,6 +38,7 @@ std::vector<float> parse_sg_rows(const SgQuestion& q, const std::string& name, s
     return fail(ErrorKind::usage, "{}:{}: {}", name, number, what);
   };
   for (number = 1; std::getline(text, line); ++number) {
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     const std::vector<std::string_view> read = cells(line);
     if (number == 1) {
       if (!std::equal(read.begin(), read.end(), columns.begin(), columns.end())) {
