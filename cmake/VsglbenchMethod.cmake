@@ -21,7 +21,8 @@ function(vsglbench_embed_kernels target kernels)
   file(GLOB read CONFIGURE_DEPENDS ${kernels}/*.comp ${kernels}/*.glsl ${harness}/shaders/*.glsl
        ${harness}/shaders/types.h ${harness}/method/shaders/*)
   add_custom_command(OUTPUT ${out} DEPENDS ${read} ${script}
-                     COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DKERNELS=${kernels} -DHARNESS=${harness} -P ${script})
+                     COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DKERNELS=${kernels} -DHARNESS=${harness} -P ${script}
+                     VERBATIM)
   target_sources(${target} PRIVATE ${out})
 endfunction()
 

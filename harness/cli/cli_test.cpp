@@ -27,6 +27,7 @@ TEST_F(CliTest, BadUsageIsOneLineAndExitCode2) {
   expect_refused(run({}), 2, "subcommand is required");
   expect_refused(run({"rnu", "x"}), 2, "no command 'rnu'; did you mean 'run'?");
   expect_refused(run({"run"}), 2, "config is required");
+  expect_refused(run({"run", "quick", "--out", "o\xff"}), 2, "argument 4 is not UTF-8");
   expect_refused(run({"run", "quick", "--ouput", "x"}), 2, "--ouput");
   expect_refused(run({"run", "quik"}), 2, "no config 'quik'; did you mean 'quick'?");
   expect_refused(run({"list", "everything"}), 2, "everything");

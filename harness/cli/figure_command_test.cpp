@@ -124,7 +124,7 @@ TEST_F(FigureCommand, RefusesASizeBeyondTheConfigsLimits) {
                  "--width 4097 is too large for sgl22-1; make it at most 4096");
   expect_refused({"figure", "sgl22-4", "--height", "2161"}, "make it at most 2160");
   expect_refused({"figure", "sgl22-2", "--width", "100"},
-                 "--width 100 is too small for sgl22-2; make it at least 480");
+                 "--width 100 is too small for sgl22-2; make it at least 800");
 }
 
 // Without N, since two-vsgl reads none. The SMAPE is of a smaller image than the rest, and says so.

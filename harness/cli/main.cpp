@@ -10,6 +10,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "base/log.h"
 #include "base/nearest.h"
 #include "base/printable.h"
@@ -55,12 +56,27 @@ void refuse_no_numbers(CLI::App* command) {
   }
 }
 
+bool is_utf8(const std::string& text) {
+  try {
+    static_cast<void>(Json(text).dump());
+    return true;
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a write over a size limit then fails with an error, and is reported as one
   const std::vector<std::string> arguments(argv, argv + argc);
+  // Reports hold the command line, and JSON is UTF-8: better now than after the measurement.
+  for (size_t i = 1; i < arguments.size(); ++i) {
+    if (!is_utf8(arguments[i]))
+      return report(fmt::format("argument {} is not UTF-8: {}; give files names that are", i, arguments[i]),
+                    2);
+  }
   CLI::App app("vsglbench: a benchmark of virtual-light methods for one-bounce indirect illumination");
   app.require_subcommand(1);
   app.footer(

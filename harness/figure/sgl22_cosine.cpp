@@ -127,8 +127,8 @@ FigureOutput clamped_cosine(const FigureInputs& inputs) {
   FigureOutput out;
   FigureTable table{"sgl22-2", {"approximation", "origin", "angle_deg", "difference"}, {}};
   const PlotAxis x{"angle between ω and n / degrees"};
-  Plot plot{.title = "SG approximations minus the clamped cosine", .x = x, .y = {"difference / 1"}};
-  Plot closeup{.title = "The same, close up", .x = x, .y = {"difference / 1"}};
+  Plot plot{.title = "SG approximations minus the clamped cosine", .x = x, .y = {"difference"}};
+  Plot closeup{.title = "The same, close up", .x = x, .y = {"difference"}};
   for (const Series& s : all) {
     for (size_t i = 0; i < angles.size(); ++i) {
       table.add(s.approximation, s.origin, angles[i] * 180 / std::numbers::pi, s.differences[i]);

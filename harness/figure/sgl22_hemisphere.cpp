@@ -83,8 +83,8 @@ FigureOutput hemisphere(const FigureInputs& inputs) {
   FigureOutput out;
   FigureTable table{"sgl22-3", {"approximation", "origin", "sharpness", "rmse"}, {}};
   Plot plot{.title = "Normalised hemispherical integral of an SG",
-            .x = {"sharpness κ / 1", true},
-            .y = {"RMSE over v·n / 1", true},
+            .x = {"sharpness κ", true},
+            .y = {"RMSE over v·n", true},
             .notes = {fmt::format("{} cosines a sharpness; single precision on the GPU against quadrature.",
                                   cosines)}};
   std::vector<double> exact;

@@ -9,21 +9,32 @@
 namespace vsglbench {
 namespace {
 
-// Numbers, lists and quoted text are JSON; all else is text.
+// Numbers, lists and quoted text are JSON; all else is text. No key takes more than a list, and what is
+// nested deeper is dropped before it can be walked.
 Json value_of(const std::string& text) {
-  const Json value = Json::parse(text, nullptr, false);
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < 4; };
+  const Json value = Json::parse(text, shallow, false);
   return value.is_discarded() ? Json(text) : value;
+}
+
+// A setting as messages repeat it.
+std::string shown(const std::string& setting) {
+  constexpr size_t kMost = 100;
+  if (setting.size() <= kMost) return setting;
+  size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(setting[end]) & 0xC0) == 0x80) --end;  // no character is cut
+  return setting.substr(0, end) + "…";
 }
 
 void check(const CaseKey& key, const Json& value, const std::string& setting) {
   if (value.is_array() && value.empty())
-    throw fail(ErrorKind::config, "--set {}: is an empty list: it would make no case", setting);
+    throw fail(ErrorKind::config, "--set {}: is an empty list: it would make no case", shown(setting));
   FrameParameters unused;
   for (const Json& each : value.is_array() ? value : Json::array({value})) {
     try {
       key.read(each, &unused);
     } catch (const Error& e) {
-      throw fail(ErrorKind::config, "--set {}: {}", setting, e.what());
+      throw fail(ErrorKind::config, "--set {}: {}", shown(setting), shown(e.what()));
     }
   }
 }
@@ -42,13 +53,14 @@ Overrides parse_overrides(const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
     const size_t equals = setting.find('=');
     if (equals == std::string::npos)
-      throw fail(ErrorKind::config, "--set takes KEY=VALUE, such as N=64, not '{}'", setting);
+      throw fail(ErrorKind::config, "--set takes KEY=VALUE, such as N=64, not '{}'", shown(setting));
     const std::string name = setting.substr(0, equals);
     const CaseKey* key = find_case_key(name);
     if (!key)
-      throw fail(ErrorKind::config, "--set {}: unknown key '{}'{}", setting, name,
+      throw fail(ErrorKind::config, "--set {}: unknown key '{}'{}", shown(setting), shown(name),
                  suggestion(name, case_key_names()));
-    if (out.contains(name)) throw fail(ErrorKind::config, "--set {}: '{}' is set twice", setting, name);
+    if (out.contains(name))
+      throw fail(ErrorKind::config, "--set {}: '{}' is set twice", shown(setting), name);
     out[name] = value_of(setting.substr(equals + 1));
     check(*key, out[name], setting);
   }

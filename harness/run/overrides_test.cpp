@@ -70,6 +70,9 @@ TEST_F(OverridesTest, WhatIsWrongIsNamed) {
   EXPECT_TRUE(contains(refusal({"visibility=nome"}), "no visibility 'nome'; did you mean 'none'?"));
   EXPECT_TRUE(contains(refusal({"N=many"}), "--set N=many: \"many\" must be an integer within 0"));
   EXPECT_TRUE(contains(refusal({"N=[]"}), "empty list"));
+  const std::string deep = refusal({"N=" + std::string(60000, '[') + std::string(60000, ']')});
+  EXPECT_TRUE(contains(deep, "--set N=[[[")) << deep.substr(0, 300);
+  EXPECT_LT(deep.size(), 500u);
   EXPECT_TRUE(contains(refusal({"N"}), "takes KEY=VALUE, such as N=64, not 'N'"));
   EXPECT_TRUE(contains(refusal({"N=1", "N=2"}), "'N' is set twice"));
   EXPECT_TRUE(contains(refusal({"diffuse=cosine"}), "--set diffuse: no case of this config reads it"));

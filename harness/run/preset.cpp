@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/nearest.h"
+#include "method/registry.h"
 #include "run/case_keys.h"
 #include "run/config.h"
 
@@ -23,6 +24,19 @@ Json preset_schema() {
   keys.insert(keys.end(), {"description", "frame", "ism"});
   for (const auto& key : keys) schema["properties"][key] = config_schema().at("properties").at(key);
   return schema;
+}
+
+// Throws for a key that is neither one of a preset nor a parameter of any method.
+void check_keys(const JsonDocument& doc, const Json& schema) {
+  std::vector<std::string> known;
+  for (const auto& item : schema.at("properties").items()) known.push_back(item.key());
+  for (const MethodInfo* method : all_methods()) {
+    for (const auto& parameter : method->parameters) known.push_back(parameter.name);
+  }
+  for (const auto& item : doc.root().items()) {
+    if (std::ranges::count(known, item.key()) == 0)
+      throw doc.error("/" + item.key(), "unknown key" + suggestion(item.key(), known));
+  }
 }
 
 }  // namespace
@@ -47,7 +61,9 @@ Json load_preset(const std::string& name) {
 
 Json read_preset(const fs::path& file) {
   const JsonDocument doc = JsonDocument::load(file, ErrorKind::config);
-  check_schema(doc, preset_schema());
+  const Json schema = preset_schema();
+  check_schema(doc, schema);
+  check_keys(doc, schema);
   Json keys = doc.root();
   keys.erase("description");
   return keys;

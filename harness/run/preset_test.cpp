@@ -79,6 +79,9 @@ TEST_F(ConfigTest, APresetOfWrongTypesIsAnErrorOfItsFile) {
   EXPECT_TRUE(contains(refusal(R"({"N": "many"})"), "'N' is \"many\" but must be integer"));
   EXPECT_TRUE(contains(refusal(R"({"diffuse": "cosin"})"), "did you mean 'cosine'?"));
   EXPECT_TRUE(contains(refusal("[]"), "must be object"));
+  EXPECT_TRUE(
+      contains(refusal(R"({"lambert_sharpnes": "2"})"), "unknown key; did you mean 'lambert_sharpness'?"));
+  EXPECT_TRUE(contains(refusal(R"({"preset": "author2024"})"), "unknown key"));
   EXPECT_EQ(refusal(R"({"K": 4, "description": "any"})"), "no error");
 }
 
