@@ -57,11 +57,13 @@ Font::Font(double size) {
   cairo_matrix_t scale, identity;
   cairo_matrix_init_scale(&scale, size, size);
   cairo_matrix_init_identity(&identity);
+  cairo_font_face_t* const known =
+      face();  // before anything is to be freed: it throws where there is no font
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_SLIGHT);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_ON);
-  scaled_ = {cairo_scaled_font_create(face(), &scale, &identity, options), cairo_scaled_font_destroy};
+  scaled_ = {cairo_scaled_font_create(known, &scale, &identity, options), cairo_scaled_font_destroy};
   cairo_font_options_destroy(options);
 }
 
