@@ -24,7 +24,7 @@ double superiority_of(const std::vector<double>& a, const std::vector<double>& b
   std::ranges::sort(sorted);
   double wins = 0;
   for (const double v : a) {
-    const auto [lower, upper] = std::ranges::equal_range(sorted, v);
+    const auto [lower, upper] = std::equal_range(sorted.begin(), sorted.end(), v);
     wins += static_cast<double>(lower - sorted.begin()) + 0.5 * static_cast<double>(upper - lower);
   }
   return wins / (static_cast<double>(a.size()) * static_cast<double>(b.size()));

@@ -21,7 +21,7 @@ double number_in(const std::string& text, const std::string& whole, const char* 
     value = std::stod(text, &used);
   } catch (const std::exception&) {
   }
-  if (used == 0 || text.find_first_not_of(" ", used) != std::string::npos || !(value > 0) ||
+  if (used == 0 || text.find_first_not_of(' ', used) != std::string::npos || !(value > 0) ||
       !std::isfinite(value))
     throw fail(ErrorKind::usage, "'{}' is no bound; give one like {}", whole, like);
   return value;
