@@ -165,7 +165,7 @@ class Answer {
   std::vector<size_t> fitting_;  // best first
 };
 
-// Of each scene the full visibility where there is one, or what is asked.
+// One group a scene: the full visibility where there is one, or what is asked.
 std::vector<const PointGroup*> groups_asked(const std::vector<PointGroup>& groups, const Question& question) {
   std::vector<const PointGroup*> out;
   std::set<std::string> scenes;

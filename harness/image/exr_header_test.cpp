@@ -95,7 +95,7 @@ class ExrHeader : public testing::Test {
   void SetUp() override { fs::create_directories(dir_); }
   void TearDown() override { fs::remove_all(dir_); }
 
-  // Of OpenEXR's own making, in one part or in two; of the pixels, only the table of their places.
+  // A file of OpenEXR's own making, in one part or in two, whose pixels are only the table of their places.
   std::string rich_file(int parts) {
     const std::string path = dir_ / "rich.exr";
     if (parts == 1) {
