@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <limits>
+#include <thread>
 
 #include "base/error.h"
 
@@ -136,6 +137,8 @@ TEST(Child, TheEndOfAMessageThatWasCutIsTheEnd) {
     ::fcntl(pipe_to_parent(), F_SETFL, O_NONBLOCK);
     parent.send(text);
   });
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(300));  // until the pipe is full: who reads along makes room
   EXPECT_FALSE(child.receive(kForever));
   EXPECT_EQ(child.how_it_ended(), "ended the process (exit code 70)");
 }
