@@ -129,7 +129,7 @@ const std::vector<Column>& frame_columns() {
       flux_column(),
       time_column("generate", "generate ms"),
       time_column("method", "method ms [95 %]", true),
-      time_column("visibility", "visibility ms (host)"),
+      time_column("rays", "rays ms (host)"),
       time_column("frame", "frame ms"),
   };
   return columns;

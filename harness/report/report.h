@@ -40,14 +40,25 @@ struct HostInfo {
   std::optional<double> load_at_start, load_at_end;  // mean number of runnable processes over a minute
 };
 
+// What a GPU's clocks did while a scene's frames were timed (gpu/clock_watch.h).
+struct ClockReport {
+  uint64_t readings = 0;
+  uint32_t least_sm_mhz = 0, most_sm_mhz = 0, least_memory_mhz = 0, most_memory_mhz = 0;
+  uint32_t most_celsius = 0;
+  double most_watts = 0;
+  std::vector<std::string> power_states;  // "P0", "P2", …, each once
+  std::vector<std::string> throttled_by;  // reasons that held a clock down, each once
+};
+
 struct SceneReport {
   std::string name, hash;
   uint64_t triangles = 0;
   std::vector<std::string> warnings;
-  glm::dvec3 light_flux{0};        // W inside the light's frustum
-  double exposure = 1;             // of the scene's previews
-  std::string contact;             // relative path of the contact sheet; empty: none
-  std::vector<std::string> notes;  // accuracy_notes() of its cases
+  glm::dvec3 light_flux{0};           // W inside the light's frustum
+  double exposure = 1;                // of the scene's previews
+  std::string contact;                // relative path of the contact sheet; empty: none
+  std::vector<std::string> notes;     // accuracy_notes() of its cases
+  std::optional<ClockReport> clocks;  // absent where no library tells
 };
 
 struct TimeNoise {
@@ -272,6 +283,9 @@ std::optional<Summary> generate_time(const std::vector<PassTiming>& passes,
 // for every method, and a GPU may raster on a few of its units only. Nothing without such a pass; throws as
 // above.
 std::optional<Summary> method_time(const std::vector<PassTiming>& passes);
+
+// Frame by frame, the sum of a stage's passes. Nothing without such a pass; throws as above.
+std::optional<Summary> stage_time(const std::vector<PassTiming>& passes, PassStage stage);
 
 // Span, Σ passes, the unattributed rest and the method's time from the raw per-frame spans.
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes);

@@ -28,6 +28,18 @@ void fields(auto& a, Is<HostInfo> auto& v) {
   a("load_at_end", v.load_at_end);
 }
 
+void fields(auto& a, Is<ClockReport> auto& v) {
+  a("readings", v.readings);
+  a("least_sm_mhz", v.least_sm_mhz);
+  a("most_sm_mhz", v.most_sm_mhz);
+  a("least_memory_mhz", v.least_memory_mhz);
+  a("most_memory_mhz", v.most_memory_mhz);
+  a("most_celsius", v.most_celsius);
+  a("most_watts", v.most_watts);
+  a("power_states", v.power_states);
+  a("throttled_by", v.throttled_by);
+}
+
 void fields(auto& a, Is<SceneReport> auto& v) {
   a("name", v.name);
   a("hash", v.hash);
@@ -37,6 +49,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a("exposure", v.exposure);
   a.unless_empty("contact", v.contact);
   a.unless_empty("notes", v.notes);
+  a("clocks", v.clocks);
 }
 
 void fields(auto& a, Is<TimeNoise> auto& v) {
@@ -292,6 +305,18 @@ Json with_pairs(Json json) {
   return json;
 }
 
+// Until the parts of a frame had names, "visibility" was that of the host's rays.
+void name_rays(Report* report) {
+  for (AaPair& pair : report->aa) {
+    const auto is_part = [](const TimeNoise& time) {
+      return time.column == "fixed" || time.column == "shade";
+    };
+    if (std::ranges::any_of(pair.times, is_part)) continue;
+    for (TimeNoise& time : pair.times)
+      if (time.column == "visibility") time.column = "rays";
+  }
+}
+
 }  // namespace
 
 Report report_from_json(const Json& json) {
@@ -300,6 +325,7 @@ Report report_from_json(const Json& json) {
   JsonReader reader(current);
   fields(reader, report);
   for (CaseResult& c : report.cases) restore(c);
+  name_rays(&report);
   return report;
 }
 

@@ -97,6 +97,7 @@ inline Report synthetic_report() {
   r.wall = {60, 40, 5, 6, 4, 1.125};
   r.scenes = {
       {"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png", {"a note"}}};
+  r.scenes[0].clocks = ClockReport{3, 1800, 1980, 3201, 3201, 62, 512.5, {"P0"}, {}};
   r.aa = {
       {"cornell",
        "cornell/mfis",

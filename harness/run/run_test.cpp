@@ -87,7 +87,9 @@ TEST_F(RunTest, WritesAReportThatHoldsEverything) {
   EXPECT_EQ(r.aa[0].case_id, r.cases.front().id);
   std::vector<std::string> times;
   for (const TimeNoise& time : r.aa[0].times) times.push_back(time.column);
-  EXPECT_EQ(times, time_columns());
+  std::vector<std::string> expected = time_columns();
+  std::erase(expected, "visibility");  // exact needs no shadow maps
+  EXPECT_EQ(times, expected);
   EXPECT_TRUE(r.host.load_at_start && r.host.load_at_end);
   EXPECT_EQ(r.scenes.at(0).triangles, 30u);
 }
