@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "answer/analysis.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
@@ -175,6 +176,7 @@ RunOutcome run_config(const RunOptions& options) {
     for (SceneReport& scene : state.scenes) scene.notes = accuracy_notes(state.cases, scene.name);
     state.wall = sum(earlier, log.wall, watch.seconds());
     state.host.load_at_end = load_average();
+    state.analysis = analysis_of(state);
     store.save(state);
   };
 
