@@ -33,18 +33,6 @@ std::string with_interval(const Estimate& e, const std::string& unit) {
   return fmt::format("{}{} [{}, {}]", number(e.value), unit, number(e.ci95.lo), number(e.ci95.hi));
 }
 
-// What time is, as a reader needs it said.
-std::string time_words(const std::string& time) {
-  static const std::map<std::string, std::string> words = {
-      {"method", "all passes but the raster of the two halves"},
-      {"frame", "the whole frame"},
-      {"generate", "light generation in both halves"},
-      {"generate.rsm", "light generation from the RSM"},
-      {"generate.gbuffer", "light generation from the G-buffer"},
-      {"visibility", "the host's shadow rays"}};
-  return words.at(time);
-}
-
 class Answer {
  public:
   Answer(const Report& report, const Question& question, const PointGroup& group)

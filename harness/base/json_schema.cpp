@@ -2,6 +2,7 @@
 #include "base/json.h"
 
 #include <functional>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -85,7 +86,7 @@ class SchemaChecker {
   // What lacks a key often has it misspelt.
   void check_required(const Json& v, const Json& schema, const std::string& wanted, const std::string& at) {
     if (v.contains(wanted)) return;
-    const Json properties = schema.value("properties", Json::object());
+    const Json& properties = properties_of(schema);
     for (const auto& [key, unused] : v.items()) {
       if (properties.contains(key) || edit_distance(key, wanted) > std::max<size_t>(2, key.size() / 2))
         continue;
@@ -118,12 +119,23 @@ class SchemaChecker {
     }
     for (const auto& [p, m] : best) report_(p, m);
   }
+  static const Json& properties_of(const Json& schema) {
+    static const Json none = Json::object();
+    const auto at = schema.find("properties");
+    return at == schema.end() ? none : *at;
+  }
+  // A pattern is compiled once: a report has the same for every pass of every case.
+  static const std::regex& compiled(const std::string& pattern) {
+    thread_local std::map<std::string, std::regex> known;
+    const auto at = known.find(pattern);
+    return at != known.end() ? at->second : known.emplace(pattern, std::regex(pattern)).first->second;
+  }
   // The library's search recurses at each character.
   void check_pattern(const std::string& text, const std::string& pattern, const std::string& at) {
     constexpr size_t kLongest = 4096;
     if (text.size() > kLongest) {
       report_(at, fmt::format("has {} bytes but may have {}", text.size(), kLongest));
-    } else if (!std::regex_search(text, std::regex(pattern))) {
+    } else if (!std::regex_search(text, compiled(pattern))) {
       report_(at, fmt::format("'{}' does not match {}", text, pattern));
     }
   }
@@ -147,7 +159,7 @@ class SchemaChecker {
     }
   }
   void check_properties(const Json& v, const Json& schema, const std::string& at) {
-    const Json properties = schema.value("properties", Json::object());
+    const Json& properties = properties_of(schema);
     for (const auto& [key, member] : v.items()) {
       const std::string child = at + "/" + pointer_token(key);
       if (properties.contains(key)) {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/percent.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "report/noise.h"
 #include "report/table.h"
 #include "run/config.h"
@@ -27,7 +28,7 @@ void on_interrupt(int signal) {
 }
 
 void print_outcome(const RunOutcome& outcome) {
-  fmt::print("{}", terminal_table(outcome.report));
+  fmt::print("{}", terminal_table(outcome.report, {.width = terminal_width()}));
   const WallTime& w = outcome.report.wall;
   fmt::print(
       "{}\n{:.1f} s in all: frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "

@@ -265,6 +265,9 @@ struct Report {
   std::vector<SceneReport> scenes;
   std::vector<AaPair> aa;  // one a scene
   std::vector<CaseResult> cases;
+  // What the cases show together: fronts, prices, budgets. Made by answer/analysis.h; null: not made, as in
+  // reports of old.
+  Json analysis;
 };
 
 HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
@@ -313,5 +316,6 @@ void write_report(const std::filesystem::path& path, const Report& report);
 Report read_report(const std::filesystem::path& path);
 // The same of a report's folder, or of its file.
 Report read_report_at(const std::filesystem::path& file_or_folder);
+std::filesystem::path report_file(const std::filesystem::path& file_or_folder);  // which of both
 
 }  // namespace vsglbench

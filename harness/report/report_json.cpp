@@ -190,6 +190,7 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("smape_lit", v.errors.smape_lit);
   a("flip", v.errors.flip);
   a("flip_p99", v.errors.flip_p99);
+  a("p99_9", v.errors.p99_9);
   a("flux", v.flux);
 }
 
@@ -274,6 +275,7 @@ void fields(auto& a, Is<Report> auto& v) {
   a("scenes", v.scenes);
   a.unless_empty("aa", v.aa);
   a("cases", v.cases);
+  a.unless_empty("analysis", v.analysis);
 }
 
 Json to_json(const Report& report) {
@@ -294,7 +296,6 @@ void restore(CaseResult& c) {
 
 // Reports of old have one pair for all scenes, an object, and of its times the frame's alone.
 Json with_pairs(Json json) {
-  if (!json.contains("aa") || json["aa"].is_array()) return json;
   Json time = json["aa"], pair = {{"scene", ""}, {"case", time["case"]}, {"twin", time["twin"]}};
   for (const Json& c : json["cases"]) {
     if (c["id"] == pair["case"]) pair["scene"] = c["scene"];
@@ -321,8 +322,9 @@ void name_rays(Report* report) {
 
 Report report_from_json(const Json& json) {
   Report report;
-  const Json current = with_pairs(json);
-  JsonReader reader(current);
+  const bool of_old = json.contains("aa") && !json["aa"].is_array();
+  const Json renewed = of_old ? with_pairs(json) : Json();
+  JsonReader reader(of_old ? renewed : json);
   fields(reader, report);
   for (CaseResult& c : report.cases) restore(c);
   name_rays(&report);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "answer/analysis.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
@@ -204,6 +205,7 @@ RunOutcome run_config(const RunOptions& options) {
     for (SceneReport& scene : state.scenes) scene.notes = accuracy_notes(state.cases, scene.name);
     state.wall = sum(earlier, log.wall, watch.seconds());
     state.host.load_at_end = load_average();
+    state.analysis = analysis_of(state);
     store.save(state);
   };
   if (noted.empty()) save(report);  // from here on there is something to go on with
