@@ -77,8 +77,12 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
       "rest goes on. A complete report in\nthe folder is kept as report.previous.json; images are replaced.\n"
       "Example: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'");
   command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
-  command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)");
-  command->add_option("--only", options->only, "run only the cases whose id matches this glob");
+  command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)")
+      ->check([](const std::string& out) { return std::string(out.empty() ? "needs a folder" : ""); });
+  command
+      ->add_option("--only", options->only,
+                   "run only the cases whose id matches one of these globs; may come again")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--set", options->set,

@@ -183,8 +183,7 @@ fs::path assets_directory(const fs::path& given) {
 RunOutcome run_config(const RunOptions& options) {
   const Stopwatch watch;
   const Config config = read_config(options);
-  const std::vector<std::string> globs(options.only.empty() ? 0 : 1, options.only);
-  const std::vector<Case> cases = select_cases(config.cases, globs, "--only");
+  const std::vector<Case> cases = select_cases(config.cases, options.only, "--only");
   ReportStore store(options.out.empty() ? fs::path("reports") / "out" / config.name : options.out);
   const WorkerOptions workers = worker_options(options, config, store);
   const DeviceReport device = probe_device(workers);

@@ -14,8 +14,8 @@ struct RunOptions {
   std::filesystem::path config;
   std::filesystem::path out;     // empty: reports/out/<name of the config>
   std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
-  std::string only;              // glob over case ids; empty: all
-  std::vector<std::string> set;  // "KEY=VALUE", in place of what the config says
+  std::vector<std::string> only;  // globs over case ids; empty: all
+  std::vector<std::string> set;   // "KEY=VALUE", in place of what the config says
   std::string device;            // as in select_device()
   bool force = false;            // measure again what an interrupted run had finished
   bool validation = false;       // with the validation layers; a message fails the run
