@@ -70,7 +70,10 @@ class FrontChart {
     return out;
   }
 
-  double y(const Point& p) const { return p.error.value > 0 ? p.error.value : y_.least; }
+  // An error of 0 just above the lower edge, where its mark is seen.
+  double y(const Point& p) const {
+    return p.error.value > 0 ? p.error.value : y_.least * std::pow(y_.most / y_.least, 0.02);
+  }
 
   std::string row(const Point& p) const {
     const double low = y_.least, error = y(p);
@@ -187,6 +190,7 @@ class FrontChart {
                              at.bottom - (at.bottom - at.top) * part(y(p), y_));
       glm::dvec2 label(place.x - 9, place.y + 13);
       if (glm::length(label - before) < kApart) label = before + glm::dvec2(kApart, 8);
+      label.y = std::min(label.y, at.bottom - 7);
       before = label;
       out += fmt::format("set label '{}' at screen {:.6f}, screen {:.6f} right font small front\n", k + 1,
                          label.x / chart.width, 1 - label.y / chart.height);

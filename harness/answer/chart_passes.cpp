@@ -19,7 +19,7 @@ constexpr const char* kYellow = "#f0e442";
 bool counts(const PassId& pass, const std::string& time) {
   if (time == "frame") return true;
   if (time == "method") return pass.stage != PassStage::draw;
-  if (pass.stage != PassStage::generate) return false;
+  if (time == "visibility" || pass.stage != PassStage::generate) return false;
   if (time == "generate") return true;
   return pass.half == (time == "generate.rsm" ? Half::rsm : Half::gbuffer);
 }

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "answer/chart.h"
@@ -135,7 +136,7 @@ class SeriesChart {
 
   std::string row(const Json& value, const Point& p, const LogAxis& y, size_t line) const {
     const bool zero = !(p.error.value > 0);
-    const double error = zero ? y.least : p.error.value;
+    const double error = zero ? y.least * std::pow(y.most / y.least, 0.02) : p.error.value;
     return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", x(value, line), error,
                        zero ? error : std::max(p.error.ci95.lo, y.least),
                        zero ? error : std::max(p.error.ci95.hi, error));

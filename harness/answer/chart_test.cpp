@@ -123,6 +123,18 @@ TEST_F(ChartTest, PointsAreTheReports) {
   }
 }
 
+TEST_F(ChartTest, TheHostsRaysAreNoPasses) {
+  const Report r = large_report(40);
+  const AnswerOptions options{"smape", "visibility"};
+  const auto groups = point_groups(r, options);
+  ASSERT_FALSE(groups.empty());
+  std::vector<std::string> remarks;
+  for (const Chart& c : charts_of(ChartSource(r, groups[0], options), {0}, &remarks))
+    EXPECT_NE(c.kind, "passes");
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_TRUE(contains(remarks[0], "is no sum of passes"));
+}
+
 TEST_F(ChartTest, AMethodLooksTheSameOnEveryChartAndNoTwoAlike) {
   std::set<std::string> styles;
   for (size_t i = 0; i < 84; ++i) styles.insert(point_style(i));
