@@ -48,8 +48,9 @@ std::string ChartSource::label_without(size_t point, const std::string& key) con
 }
 
 std::string ChartSource::error_label() const {
-  const std::string unit = metric_unit(options.metric);
-  return metric_title(options.metric) + (unit.empty() ? "" : " /" + unit);
+  const std::string title = metric_title(options.metric), unit = metric_unit(options.metric);
+  if (options.metric == "rmse") return title + " / (W/m²/sr)";
+  return title + (unit.empty() ? "" : " /" + unit);
 }
 
 std::string ChartSource::time_label() const { return options.time + " time / ms"; }
@@ -111,6 +112,18 @@ std::string chart_script(const Chart& chart, PlotFormat format) {
   return out + chart.commands;
 }
 
+void make_room(Chart* chart, const std::vector<std::string>& texts, double beside) {
+  constexpr double kLeast = 300, kMost = 640;
+  const Font font(13);
+  double widest = 0;
+  for (const std::string& text : texts) widest = std::max(widest, font.width(text));
+  const double plot = chart->width - chart->right;
+  chart->right = std::clamp(1.06 * widest + beside, kLeast, kMost);
+  chart->width = static_cast<uint32_t>(plot + chart->right);
+}
+
+std::string ms_text(double ms) { return fmt::format(fmt::runtime(ms < 100 ? "{:.3g} ms" : "{:.0f} ms"), ms); }
+
 std::string colour_of(size_t i) { return kColours[i % std::size(kColours)]; }
 
 std::string point_style(size_t i) {
@@ -152,13 +165,14 @@ std::vector<std::string> error_notes(const LogErrors& errors) {
   std::vector<std::string> out;
   if (errors.zero > 0)
     out.push_back(
-        fmt::format("▽ at the lower edge: {} cases with an error of 0, which a logarithmic axis can't show",
+        fmt::format("▽ at the lower edge: cases with an error of 0, which a logarithmic axis can't show: {}",
                     errors.zero));
   if (errors.cut > 0)
-    out.push_back(fmt::format("{} intervals reach below the axis, or to 0, and are cut there", errors.cut));
+    out.push_back(
+        fmt::format("intervals that reach below the axis, or to 0, and are cut there: {}", errors.cut));
   if (errors.heavy > 0)
     out.push_back(fmt::format(
-        "{} cases have heavy-tailed seeds: drawn is the median, from the least seed to the largest",
+        "cases with heavy-tailed seeds, drawn as their median, from the least seed to the largest: {}",
         errors.heavy));
   return out;
 }

@@ -69,8 +69,11 @@ std::optional<Chart> series_chart(const ChartSource& source, const std::string& 
 // Colour and kind of point of the i-th method.
 std::string point_style(size_t i);
 std::string colour_of(size_t i);
+std::string ms_text(double ms);  // "1.07 ms", "2417 ms"
 // At most `most` of a list, evenly, with its first and last.
 std::vector<size_t> evenly(const std::vector<size_t>& list, size_t most);
+// The page is as much wider as these texts need beside the plot, up to a limit, and `beside` pixels more.
+void make_room(Chart* chart, const std::vector<std::string>& texts, double beside);
 // A label at a place of the page, pixels from its upper left.
 std::string page_label(const Chart& chart, const std::string& text, double x, double y, bool small = true);
 

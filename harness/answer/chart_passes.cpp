@@ -12,11 +12,14 @@ namespace {
 
 constexpr size_t kMostRows = 30, kMostPasses = 7;  // the other passes are one
 constexpr const char* kOthers = "#999999";
+// The last one in place of black, in which the sums are drawn.
+constexpr size_t kBlack = 6;
+constexpr const char* kYellow = "#f0e442";
 
 bool counts(const PassId& pass, const std::string& time) {
   if (time == "frame") return true;
   if (time == "method") return pass.stage != PassStage::draw;
-  if (pass.stage != PassStage::generate) return false;
+  if (time == "visibility" || pass.stage != PassStage::generate) return false;
   if (time == "generate") return true;
   return pass.half == (time == "generate.rsm" ? Half::rsm : Half::gbuffer);
 }
@@ -78,8 +81,8 @@ std::string sums(const ChartSource& source, const std::vector<size_t>& rows, dou
   for (size_t row = 0; row < rows.size(); ++row) {
     const Point& p = source.group.points[rows[row]];
     out += fmt::format("{:.9g} {} {:.9g} {:.9g}\n", p.ms.value, row, p.ms.ci95.lo, p.ms.ci95.hi);
-    labels += fmt::format("set label '{:.3g} ms, {}' at {:.9g}, {} left font small noenhanced\n", p.ms.value,
-                          source.error_text(p.error.value),
+    labels += fmt::format("set label '{}, {}' at {:.9g}, {} left font small noenhanced\n",
+                          ms_text(p.ms.value), source.error_text(p.error.value),
                           std::max(p.ms.ci95.hi, p.ms.value) + 0.015 * widest, row);
   }
   return out + "END\n" + labels;
@@ -122,7 +125,10 @@ std::optional<Chart> passes_chart(const ChartSource& source, const std::vector<s
     const bool others = k == named.size();
     c.commands += bar_block(block, bars[k]);
     curves.push_back(
-        bar_curve(block, others ? kOthers : colour_of(k),
+        bar_curve(block,
+                  others        ? kOthers
+                  : k == kBlack ? kYellow
+                                : colour_of(k),
                   others ? fmt::format("{} other passes", weights.names.size() - named.size()) : named[k]));
   }
   curves.push_back(

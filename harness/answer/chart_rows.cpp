@@ -10,8 +10,8 @@
 namespace vsglbench {
 namespace {
 
-constexpr double kRow = 27, kWidestName = 460;  // pixels
-constexpr double kLeastHeight = 420;
+constexpr double kRow = 27, kWidestName = 560;  // pixels
+constexpr double kLeastHeight = 420, kLeastPlot = 560;
 
 }  // namespace
 
@@ -41,6 +41,7 @@ std::string name_rows(Chart* chart, const std::vector<std::string>& names) {
     tics.push_back(fmt::format("{} {}", Gnuplot::quoted(name), i));
   }
   chart->left = 30 + 1.08 * widest;
+  chart->width = std::max(chart->width, static_cast<uint32_t>(chart->left + kLeastPlot + chart->right));
   const double beside = chart->height - (plot_place(*chart).bottom - plot_place(*chart).top);
   chart->height =
       static_cast<uint32_t>(std::max(kLeastHeight, beside + kRow * static_cast<double>(names.size())));

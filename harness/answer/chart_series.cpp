@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "answer/chart.h"
@@ -47,15 +48,17 @@ class SeriesChart {
     c.commands = y.commands + floor_line(source_, y) + x_axis() +
                  fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
                              Gnuplot::quoted(key_label()), Gnuplot::quoted(source_.error_label()));
-    std::vector<std::string> curves;
+    std::vector<std::string> curves, names;
+    for (const Series& line : series_)
+      names.push_back(source_.label_without(line.points.front().second, key_));
+    make_room(&c, names, 80);
     const Font font(13);
     for (size_t k = 0; k < series_.size(); ++k) {
       c.commands += fmt::format("$s{} << END\n", k);
       for (const auto& [value, i] : series_[k].points)
         c.commands += row(value, source_.group.points[i], y, k);
       c.commands += "END\n";
-      const std::string name =
-          font.fit(source_.label_without(series_[k].points.front().second, key_), c.right - 74);
+      const std::string name = font.fit(names[k], c.right - 74);
       curves.push_back(fmt::format(
           "$s{0} using 1:2 with lines lw 1.5 lc rgb '{1}' notitle, \\\n"
           "     $s{0} using 1:2:3:4 with yerrorbars {2} pointsize 1.2 lw 1.2 title {3} noenhanced",
@@ -133,7 +136,7 @@ class SeriesChart {
 
   std::string row(const Json& value, const Point& p, const LogAxis& y, size_t line) const {
     const bool zero = !(p.error.value > 0);
-    const double error = zero ? y.least : p.error.value;
+    const double error = zero ? y.least * std::pow(y.most / y.least, 0.02) : p.error.value;
     return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", x(value, line), error,
                        zero ? error : std::max(p.error.ci95.lo, y.least),
                        zero ? error : std::max(p.error.ci95.hi, error));

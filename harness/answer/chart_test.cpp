@@ -98,14 +98,14 @@ TEST_F(ChartTest, ErrorsThatALogarithmCannotShowAreSaid) {
   MetricResult& exact = r.cases[0].accuracy->smape;
   exact.value = 0;
   exact.ci95 = Interval{0, 0};
-  EXPECT_TRUE(contains(front_script(r), "1 cases with an error of 0"));
+  EXPECT_TRUE(contains(front_script(r), "cases with an error of 0"));
   r.cases[1].accuracy->smape.ci95 = Interval{-3, 20};
-  EXPECT_TRUE(contains(front_script(r), "1 intervals reach below the axis"));
+  EXPECT_TRUE(contains(front_script(r), "are cut there: 1"));
   r.cases[2].accuracy->smape.heavy_tailed = true;
   r.cases[2].accuracy->smape.median = 3;
   r.cases[2].accuracy->smape.least = 2;
   r.cases[2].accuracy->smape.largest = 50;
-  EXPECT_TRUE(contains(front_script(r), "1 cases have heavy-tailed seeds"));
+  EXPECT_TRUE(contains(front_script(r), "from the least seed to the largest: 1"));
   Gnuplot().run(front_script(r));
   for (CaseResult& c : r.cases) c.accuracy->smape.value = 0;
   Gnuplot().run(front_script(r));
@@ -121,6 +121,18 @@ TEST_F(ChartTest, PointsAreTheReports) {
         contains(script, fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", p.ms.value, p.error.value,
                                      p.ms.ci95.lo, p.ms.ci95.hi, p.error.ci95.lo, p.error.ci95.hi)));
   }
+}
+
+TEST_F(ChartTest, TheHostsRaysAreNoPasses) {
+  const Report r = large_report(40);
+  const AnswerOptions options{"smape", "visibility"};
+  const auto groups = point_groups(r, options);
+  ASSERT_FALSE(groups.empty());
+  std::vector<std::string> remarks;
+  for (const Chart& c : charts_of(ChartSource(r, groups[0], options), {0}, &remarks))
+    EXPECT_NE(c.kind, "passes");
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_TRUE(contains(remarks[0], "is no sum of passes"));
 }
 
 TEST_F(ChartTest, AMethodLooksTheSameOnEveryChartAndNoTwoAlike) {

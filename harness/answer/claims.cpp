@@ -104,11 +104,14 @@ std::optional<PairRatio> ratio_of_errors(const Trial& a, const std::map<uint64_t
   return over_seeds(std::move(logs));
 }
 
-std::optional<PairRatio> ratio_of_times(const Trial& a, const Trial& b) {
+// What is noise in a time may be in either direction.
+std::optional<PairRatio> ratio_of_times(const Trial& a, const Trial& b, double noise) {
   if (!a.ms || !b.ms || !(a.ms->ci95.lo > 0) || !(b.ms->ci95.lo > 0)) return std::nullopt;
-  return PairRatio{{},
-                   {std::log(a.ms->value / b.ms->value),
-                    {std::log(a.ms->ci95.lo / b.ms->ci95.hi), std::log(a.ms->ci95.hi / b.ms->ci95.lo)}}};
+  const double slack = std::log1p(noise);
+  return PairRatio{
+      {},
+      {std::log(a.ms->value / b.ms->value),
+       {std::log(a.ms->ci95.lo / b.ms->ci95.hi) - slack, std::log(a.ms->ci95.hi / b.ms->ci95.lo) + slack}}};
 }
 
 // Logarithms of the error of a ladder, by time, at a time between its ends; nothing outside, but within
@@ -253,7 +256,7 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
       continue;
     }
     for (const Trial* b : others) {
-      auto ratio = is_time(metric) ? ratio_of_times(a, *b) : ratio_of_errors(a, b->logs);
+      auto ratio = is_time(metric) ? ratio_of_times(a, *b, noise) : ratio_of_errors(a, b->logs);
       if (ratio) out.push_back(std::move(*ratio));
     }
   }
@@ -265,8 +268,8 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
 enum class Truth { so, not_so, open };
 
 // Whether a ratio in this interval of logarithms is as said.
-Truth truth_of(const PaperClaim& claim, const Interval& log, double margin) {
-  const double factor = std::log(claim.factor), step = std::log1p(margin);
+Truth truth_of(const PaperClaim& claim, const Interval& log) {
+  const double factor = std::log(claim.factor), step = std::log1p(kSmallestEffect);
   switch (claim.says) {
     case Says::less:
       return log.hi < factor - step ? Truth::so : log.lo > factor - step ? Truth::not_so : Truth::open;
@@ -308,8 +311,9 @@ Ruling ruling_of(Truth whole, size_t holding, size_t contrary) {
 }
 
 std::string what_is_missing(const Sides& sides, const PaperClaim& claim, const std::string& metric) {
-  if (sides.a.empty()) return "no case with " + claim.a.dump();
-  if (sides.b.empty()) return "no case with " + claim.b.dump();
+  const std::string both = claim.both.empty() ? "" : " " + settings_text(claim.both);
+  if (sides.a.empty()) return "no case of " + settings_text(claim.a) + both;
+  if (sides.b.empty()) return "no case of " + settings_text(claim.b) + both;
   const auto measured = [&](const Trial& t) {
     return is_time(metric) ? t.ms.has_value() : t.logs.size() > 1;
   };
@@ -325,8 +329,7 @@ ClaimRow row_of(const Report& report, const PaperClaim& claim, const std::string
   row.scene = scene;
   row.metric = metric;
   const TimeNoise* known = noise_of(report, scene, is_time(metric) ? metric.substr(5) : "method");
-  const double noise = known ? known->noise_floor : 0,
-               margin = is_time(metric) ? std::max(noise, kSmallestEffect) : kSmallestEffect;
+  const double noise = known ? known->noise_floor : 0;
   const Sides sides = sides_of(report, claim, scene, metric);
   const std::vector<PairRatio> pairs = pairs_of(claim, sides, metric, noise);
   if (pairs.empty()) {
@@ -336,7 +339,7 @@ ClaimRow row_of(const Report& report, const PaperClaim& claim, const std::string
   row.pairs = pairs.size();
   row.lowest = row.highest = std::exp(pairs.front().log.value);
   for (const PairRatio& p : pairs) {
-    const Truth truth = truth_of(claim, p.log.ci95, margin);
+    const Truth truth = truth_of(claim, p.log.ci95);
     row.holding += truth == Truth::so;
     row.contrary += truth == Truth::not_so;
     row.lowest = std::min(row.lowest, std::exp(p.log.value));
@@ -345,7 +348,7 @@ ClaimRow row_of(const Report& report, const PaperClaim& claim, const std::string
   const Estimate whole = pooled(pairs);
   row.ratio = std::exp(whole.value);
   row.ci95 = {std::exp(whole.ci95.lo), std::exp(whole.ci95.hi)};
-  row.ruling = ruling_of(truth_of(claim, whole.ci95, margin), row.holding, row.contrary);
+  row.ruling = ruling_of(truth_of(claim, whole.ci95), row.holding, row.contrary);
   return row;
 }
 

@@ -50,6 +50,9 @@ struct TriedClaim {
 // Throws Error(config) "FILE:LINE: ...". Without a path: the list that comes with the programme.
 std::vector<PaperClaim> load_claims(const std::filesystem::path& file = {});
 
+// "fis|mfis K=1", as a person would say which cases these are.
+std::string settings_text(const Json& settings);
+
 TriedClaim try_claim(const Report& report, const PaperClaim& claim);
 
 std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool markdown);

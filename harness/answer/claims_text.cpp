@@ -7,18 +7,6 @@
 namespace vsglbench {
 namespace {
 
-std::string settings_text(const Json& settings) {
-  std::vector<std::string> parts;
-  for (const auto& item : settings.items()) {
-    std::vector<std::string> values;
-    for (const Json& v : item.value().is_array() ? item.value() : Json::array({item.value()}))
-      values.push_back(v.is_string() ? v.get<std::string>() : v.dump());
-    const std::string value = fmt::format("{}", fmt::join(values, "|"));
-    parts.push_back(item.key() == "method" ? value : item.key() + "=" + value);
-  }
-  return fmt::format("{}", fmt::join(parts, " "));
-}
-
 // "fis|mfis K=1 beside vpl, at equal N: the ratio must be below 1"
 std::string pair_text(const PaperClaim& c) {
   std::string out = settings_text(c.a) + " beside " + settings_text(c.b);
@@ -46,7 +34,7 @@ std::string pairs_text(const ClaimRow& r) {
 
 // "holds in 3, undecided in 1 of 4"
 std::string summary(const TriedClaim& claim) {
-  if (claim.rows.empty()) return fmt::format("not run: no scene {}", fmt::join(claim.claim.scenes, ", "));
+  if (claim.rows.empty()) return "not run";
   std::vector<std::string> parts;
   for (const Ruling ruling :
        {Ruling::holds, Ruling::in_part, Ruling::undecided, Ruling::does_not_hold, Ruling::not_run}) {
@@ -56,9 +44,17 @@ std::string summary(const TriedClaim& claim) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// Where nothing was run for one reason, that; else empty.
+std::string why_not_at_all(const TriedClaim& tried) {
+  if (tried.rows.empty()) return fmt::format("no scene {}", fmt::join(tried.claim.scenes, ", "));
+  const auto same = [&](const ClaimRow& r) { return r.pairs == 0 && r.why == tried.rows.front().why; };
+  return std::ranges::all_of(tried.rows, same) ? tried.rows.front().why : "";
+}
+
 std::string terminal(const TriedClaim& tried) {
   std::string out = fmt::format("{}: {}\n  {}  {}\n  {}\n", tried.claim.name, summary(tried),
                                 tried.claim.text, tried.claim.source, pair_text(tried.claim));
+  if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "    " + why + "\n";
   size_t scene = 5;
   for (const ClaimRow& r : tried.rows) scene = std::max(scene, r.scene.size());
   for (const ClaimRow& r : tried.rows) {
@@ -71,7 +67,7 @@ std::string terminal(const TriedClaim& tried) {
 std::string markdown(const TriedClaim& tried) {
   std::string out = fmt::format("**{}**: {}. {} {}\n\n{}.\n\n", tried.claim.name, summary(tried),
                                 tried.claim.text, tried.claim.source, pair_text(tried.claim));
-  if (tried.rows.empty()) return out;
+  if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
   out += "| scene | metric | ruling | ratio [95 %] | pairs as said |\n| --- | --- | --- | ---: | --- |\n";
   for (const ClaimRow& r : tried.rows)
     out += fmt::format("| {} | {} | {} | {} | {} |\n", r.scene, r.metric, name(r.ruling), ratio_text(r),
@@ -81,13 +77,25 @@ std::string markdown(const TriedClaim& tried) {
 
 }  // namespace
 
+std::string settings_text(const Json& settings) {
+  std::vector<std::string> parts;
+  for (const auto& item : settings.items()) {
+    std::vector<std::string> values;
+    for (const Json& v : item.value().is_array() ? item.value() : Json::array({item.value()}))
+      values.push_back(v.is_string() ? v.get<std::string>() : v.dump());
+    const std::string value = fmt::format("{}", fmt::join(values, "|"));
+    parts.push_back(item.key() == "method" ? value : item.key() + "=" + value);
+  }
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
 std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool as_markdown) {
   std::string out;
   for (const TriedClaim& c : claims) out += as_markdown ? markdown(c) : terminal(c) + "\n";
   return out + fmt::format(
                    "ratios: geometric means over pairs of cases alike in all else, with Student's interval "
                    "over seeds "
-                   "(of times: ends of the medians' intervals); {}{}\n",
+                   "(of times: the ends of the medians' intervals and the A/A noise); {}{}\n",
                    printable(report.device.name),
                    report.device.type == "cpu" ? ", a CPU: its times say nothing of a GPU's" : "");
 }

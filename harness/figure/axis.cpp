@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <set>
 #include <vector>
 
 namespace vsglbench {
@@ -25,9 +26,12 @@ std::vector<std::string> ticks_at(std::initializer_list<double> factors, double 
 std::vector<std::string> ticks_between(double least, double most) {
   std::vector<std::string> out = ticks_at({1, 2, 5}, least, most);
   if (out.size() < 4) out = ticks_at({1, 1.5, 2, 3, 4, 5, 6, 7, 8}, least, most);
-  if (out.size() < 3)
-    out = {fmt::format("{:.3g}", least), fmt::format("{:.3g}", std::sqrt(least * most)),
-           fmt::format("{:.3g}", most)};
+  for (int digits = 3; out.size() < 3 && digits < 10; ++digits) {
+    std::set<std::string> three;
+    for (const double share : {0.1, 0.5, 0.9})
+      three.insert(fmt::format("{:.{}g}", least * std::pow(most / least, share), digits));
+    if (three.size() == 3) out.assign(three.begin(), three.end());
+  }
   return out;
 }
 
