@@ -2,6 +2,7 @@
 #include "base/json.h"
 
 #include <functional>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -21,6 +22,20 @@ bool has_type(const Json& v, const std::string& type) {
   if (type == "boolean") return v.is_boolean();
   if (type == "null") return v.is_null();
   throw std::logic_error("schema: unknown type " + type);
+}
+
+// The member of this name, or an empty object.
+const Json& member(const Json& schema, const char* name) {
+  static const Json none = Json::object();
+  const auto it = schema.find(name);
+  return it == schema.end() ? none : *it;
+}
+
+// Compiled once: that takes longer than most searches.
+const std::regex& compiled(const std::string& pattern) {
+  thread_local std::map<std::string, std::regex> known;
+  const auto it = known.find(pattern);
+  return it != known.end() ? it->second : known.emplace(pattern, std::regex(pattern)).first->second;
 }
 
 class SchemaChecker {
@@ -85,7 +100,7 @@ class SchemaChecker {
   // What lacks a key often has it misspelt.
   void check_required(const Json& v, const Json& schema, const std::string& wanted, const std::string& at) {
     if (v.contains(wanted)) return;
-    const Json properties = schema.value("properties", Json::object());
+    const Json& properties = member(schema, "properties");
     for (const auto& [key, unused] : v.items()) {
       if (properties.contains(key) || edit_distance(key, wanted) > std::max<size_t>(2, key.size() / 2))
         continue;
@@ -123,7 +138,7 @@ class SchemaChecker {
     constexpr size_t kLongest = 4096;
     if (text.size() > kLongest) {
       report_(at, fmt::format("has {} bytes but may have {}", text.size(), kLongest));
-    } else if (!std::regex_search(text, std::regex(pattern))) {
+    } else if (!std::regex_search(text, compiled(pattern))) {
       report_(at, fmt::format("'{}' does not match {}", text, pattern));
     }
   }
@@ -147,11 +162,11 @@ class SchemaChecker {
     }
   }
   void check_properties(const Json& v, const Json& schema, const std::string& at) {
-    const Json properties = schema.value("properties", Json::object());
-    for (const auto& [key, member] : v.items()) {
+    const Json& properties = member(schema, "properties");
+    for (const auto& [key, value] : v.items()) {
       const std::string child = at + "/" + pointer_token(key);
       if (properties.contains(key)) {
-        check(member, properties.at(key), child);
+        check(value, properties.at(key), child);
       } else if (schema.contains("additionalProperties")) {
         const Json& rule = schema.at("additionalProperties");
         if (rule.is_boolean() && !rule.get<bool>()) {
@@ -159,7 +174,7 @@ class SchemaChecker {
           for (const auto& [k, unused] : properties.items()) known.push_back(k);
           report_(child, fmt::format("unknown key '{}'{}", key, suggestion(key, known)));
         } else {
-          check(member, rule, child);
+          check(value, rule, child);
         }
       }
     }
