@@ -89,17 +89,18 @@ class Answer {
   std::string summary() const {
     const std::vector<size_t> front = front_of(group_);
     const Point& least = group_.points[front.back()];
-    std::string out = fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(),
-                                  metric_title(metric()), with_interval(least.error, metric_unit(metric())),
-                                  label(front.back()), with_interval(least.ms, ""),
-                                  time_words(question_.options.time));
+    std::string out =
+        fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(), metric_title(metric()),
+                    with_interval(least.error, metric_unit(metric())), label(front.back()),
+                    with_interval(least.ms, ""), time_words(question_.options.time));
     const auto is_near = [&](size_t i) { return group_.points[i].error.value <= 2 * least.error.value; };
     const size_t cheapest = *std::ranges::find_if(front, is_near);
     if (cheapest == front.back()) return out + " No cheaper case is within twice that error.";
     const Point& p = group_.points[cheapest];
-    return out + fmt::format(" Within twice that error {} is the cheapest: {} in {} ms, {:.2g} times as long.",
-                             label(cheapest), error_text(p.error.value), number(p.ms.value),
-                             p.ms.value / least.ms.value);
+    return out +
+           fmt::format(" Within twice that error {} is the cheapest: {} in {} ms, {:.2g} times as long.",
+                       label(cheapest), error_text(p.error.value), number(p.ms.value),
+                       p.ms.value / least.ms.value);
   }
 
   std::string nearest() const {

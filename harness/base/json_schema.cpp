@@ -24,6 +24,20 @@ bool has_type(const Json& v, const std::string& type) {
   throw std::logic_error("schema: unknown type " + type);
 }
 
+// The member of this name, or an empty object.
+const Json& member(const Json& schema, const char* name) {
+  static const Json none = Json::object();
+  const auto it = schema.find(name);
+  return it == schema.end() ? none : *it;
+}
+
+// Compiled once: that takes longer than most searches.
+const std::regex& compiled(const std::string& pattern) {
+  thread_local std::map<std::string, std::regex> known;
+  const auto it = known.find(pattern);
+  return it != known.end() ? it->second : known.emplace(pattern, std::regex(pattern)).first->second;
+}
+
 class SchemaChecker {
  public:
   SchemaChecker(const Json& root, Violation report) : root_(root), report_(std::move(report)) {}
@@ -86,7 +100,7 @@ class SchemaChecker {
   // What lacks a key often has it misspelt.
   void check_required(const Json& v, const Json& schema, const std::string& wanted, const std::string& at) {
     if (v.contains(wanted)) return;
-    const Json& properties = properties_of(schema);
+    const Json& properties = member(schema, "properties");
     for (const auto& [key, unused] : v.items()) {
       if (properties.contains(key) || edit_distance(key, wanted) > std::max<size_t>(2, key.size() / 2))
         continue;
@@ -119,17 +133,6 @@ class SchemaChecker {
     }
     for (const auto& [p, m] : best) report_(p, m);
   }
-  static const Json& properties_of(const Json& schema) {
-    static const Json none = Json::object();
-    const auto at = schema.find("properties");
-    return at == schema.end() ? none : *at;
-  }
-  // A pattern is compiled once: a report has the same for every pass of every case.
-  static const std::regex& compiled(const std::string& pattern) {
-    thread_local std::map<std::string, std::regex> known;
-    const auto at = known.find(pattern);
-    return at != known.end() ? at->second : known.emplace(pattern, std::regex(pattern)).first->second;
-  }
   // The library's search recurses at each character.
   void check_pattern(const std::string& text, const std::string& pattern, const std::string& at) {
     constexpr size_t kLongest = 4096;
@@ -159,11 +162,11 @@ class SchemaChecker {
     }
   }
   void check_properties(const Json& v, const Json& schema, const std::string& at) {
-    const Json& properties = properties_of(schema);
-    for (const auto& [key, member] : v.items()) {
+    const Json& properties = member(schema, "properties");
+    for (const auto& [key, value] : v.items()) {
       const std::string child = at + "/" + pointer_token(key);
       if (properties.contains(key)) {
-        check(member, properties.at(key), child);
+        check(value, properties.at(key), child);
       } else if (schema.contains("additionalProperties")) {
         const Json& rule = schema.at("additionalProperties");
         if (rule.is_boolean() && !rule.get<bool>()) {
@@ -171,7 +174,7 @@ class SchemaChecker {
           for (const auto& [k, unused] : properties.items()) known.push_back(k);
           report_(child, fmt::format("unknown key '{}'{}", key, suggestion(key, known)));
         } else {
-          check(member, rule, child);
+          check(value, rule, child);
         }
       }
     }

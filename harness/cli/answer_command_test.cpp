@@ -20,7 +20,8 @@ TEST_F(CliTest, AnswerNamesAMethodAndWhatHalvingCosts) {
 }
 
 TEST_F(CliTest, AnswerRefusesOnOneLine) {
-  expect_refused(run({"answer", kQuick, "--error", "smape<=5", "--time", "2ms"}), 2, "ask for one of --error");
+  expect_refused(run({"answer", kQuick, "--error", "smape<=5", "--time", "2ms"}), 2,
+                 "ask for one of --error");
   expect_refused(run({"answer", kQuick, "--error", "smap<=5"}), 2, "did you mean 'smape'");
   expect_refused(run({"answer", kQuick, "--error", "smape"}), 2, "give one like smape<=5");
   expect_refused(run({"answer", kQuick, "--time", "2ms", "--scene", "cornel"}), 2, "did you mean 'cornell'");

@@ -94,11 +94,11 @@ void print_text(const Json& rows) {
     fmt::print("{:<{}}  {}\n", row["name"].get<std::string>(), width, row["summary"].get<std::string>());
     const std::string indent(width + 2, ' ');
     for (const auto& p : row.value("parameters", Json::array())) {
-      const std::string range = p.contains("minimum")
-                                    ? fmt::format("{} … {}", number_text(p["minimum"]), number_text(p["maximum"]))
-                                    : p["choices"].dump();
-      fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(), number_text(p["default"]),
-                 range, p["description"].get<std::string>());
+      const std::string range =
+          p.contains("minimum") ? fmt::format("{} … {}", number_text(p["minimum"]), number_text(p["maximum"]))
+                                : p["choices"].dump();
+      fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(),
+                 number_text(p["default"]), range, p["description"].get<std::string>());
     }
     if (row.contains("values")) {
       const Json& value = row["default"];

@@ -18,8 +18,8 @@ struct Reason {
   uint64_t bit;
   const char* name;
 };
-constexpr Reason kReasons[] = {{0x4, "power cap"},        {0x8, "hardware slowdown"}, {0x10, "sync boost"},
-                               {0x20, "hot (driver)"},    {0x40, "hot (hardware)"},   {0x80, "power brake"},
+constexpr Reason kReasons[] = {{0x4, "power cap"},       {0x8, "hardware slowdown"}, {0x10, "sync boost"},
+                               {0x20, "hot (driver)"},   {0x40, "hot (hardware)"},   {0x80, "power brake"},
                                {0x100, "display clocks"}};
 
 // "GPU-01234567-89ab-…" of 32 hex digits.
@@ -103,7 +103,8 @@ std::optional<ClockReading> ClockWatch::read() const {
   if (ask(nvml.temperature, kSensorGpu, &value)) reading.celsius = value;
   if (ask(nvml.power, &value)) reading.watts = 1e-3 * value;  // mW
   int state = 0;
-  if (ask(nvml.power_state, &state) && state >= 0 && state < 16) reading.power_state = fmt::format("P{}", state);
+  if (ask(nvml.power_state, &state) && state >= 0 && state < 16)
+    reading.power_state = fmt::format("P{}", state);
   unsigned long long bits = 0;
   if (ask(nvml.reasons, &bits)) reading.throttled_by = throttle_reasons(bits);
   if (!any) return std::nullopt;

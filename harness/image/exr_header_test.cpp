@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfFloatVectorAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfKeyCodeAttribute.h>
@@ -19,6 +20,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfStringVectorAttribute.h>
 #include <OpenEXR/ImfTileDescriptionAttribute.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <OpenEXR/ImfTimeCodeAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <gtest/gtest.h>
@@ -128,6 +130,53 @@ class ExrHeader : public testing::Test {
     return at + name.size();
   }
 
+  // The file with other numbers at the start of the value of an attribute.
+  static std::string with_value(std::string file, const std::string& name, const std::string& type,
+                                const std::vector<uint32_t>& numbers) {
+    const std::string start = name + '\0' + type + '\0';
+    const size_t found = file.find(start);
+    if (found == std::string::npos) throw std::runtime_error("no " + name);
+    const size_t at = found + start.size() + sizeof(uint32_t);
+    for (size_t i = 0; i < 4 * numbers.size(); ++i)
+      file[at + i] = static_cast<char>(numbers[i / 4] >> 8 * (i % 4));
+    return file;
+  }
+
+  // An image of 4x2 in one tile.
+  std::string tiled_file() {
+    const std::string path = dir_ / "tiled.exr";
+    Imf::Header header(4, 2);
+    header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+    header.setTileDescription(Imf::TileDescription(256, 128));
+    const std::vector<float> values = {1, 2, 3, 4, 5, 6, 7, 8};
+    Imf::FrameBuffer frame;
+    frame.insert("Z", Imf::Slice::Make(Imf::FLOAT, values.data(), header.dataWindow()));
+    {
+      Imf::TiledOutputFile file(path.c_str(), header);
+      file.setFrameBuffer(frame);
+      file.writeTile(0, 0);
+    }
+    return read_text(path);
+  }
+
+  // read_exr_layers() refuses it with less than 64 MiB of memory.
+  void expect_refused_unread(const std::string& file, const std::string& why) {
+    write_text(dir_ / "a.exr", file);
+    const auto peak_kib = [] {
+      rusage usage{};
+      ::getrusage(RUSAGE_SELF, &usage);
+      return usage.ru_maxrss;
+    };
+    const long before = peak_kib();
+    try {
+      read_exr_layers(dir_ / "a.exr");
+      ADD_FAILURE() << "was read";
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
+    }
+    EXPECT_LT(peak_kib() - before, 64 << 10);
+  }
+
   static std::string with_size(std::string file, const std::string& type, uint32_t bytes) {
     const size_t at = size_of_type(file, type);
     for (int i = 0; i < 4; ++i) file[at + i] = static_cast<char>(bytes >> 8 * i);
@@ -177,15 +226,37 @@ TEST_F(ExrHeader, ASizeBeyondTheFileIsRefused) {
 TEST_F(ExrHeader, ADamagedFileTakesNoMemory) {
   ExrLayers layers{4, 2, {}, {{"Z", std::vector<float>(8)}}, {{"note", "text"}}};
   write_exr(dir_ / "a.exr", layers);
-  write_text(dir_ / "a.exr", with_size(read_text(dir_ / "a.exr"), "string", 0x7fffffffU));
-  const auto peak_kib = [] {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
-  };
-  const long before = peak_kib();
-  EXPECT_THROW(read_exr_layers(dir_ / "a.exr"), Error);
-  EXPECT_LT(peak_kib() - before, 64 << 10);
+  expect_refused_unread(with_size(read_text(dir_ / "a.exr"), "string", 0x7fffffffU), "bytes where");
+}
+
+TEST_F(ExrHeader, ATileMayBeLargerThanItsImage) {
+  write_text(dir_ / "a.exr", tiled_file());
+  const ExrLayers layers = read_exr_layers(dir_ / "a.exr");
+  EXPECT_EQ(layers.width, 4u);
+  EXPECT_EQ(layers.scalars.at("Z"), (std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}));
+}
+
+// The library made room for a whole tile, or all lines of a block, before it read a pixel.
+TEST_F(ExrHeader, HugeTilesAndBlocksTakeNoMemory) {
+  for (const uint32_t side : {8192U, 0x7fffffffU, 0xffffffffU})
+    expect_refused_unread(with_value(tiled_file(), "tiles", "tiledesc", {side, side}), "cannot hold tiles");
+  std::string dwab = with_value(rich_file(1), "dataWindow", "box2i", {0, 0, 32767, 0});
+  dwab[dwab.find(std::string("compression\0compression\0", 24)) + 28] = 9;
+  expect_refused_unread(dwab, "cannot hold tiles");
+}
+
+TEST_F(ExrHeader, AnImageThatTheFileCanNotHoldIsRefused) {
+  for (const int parts : {1, 2}) {
+    const std::string file = rich_file(parts);
+    const auto with_window = [&](const std::vector<uint32_t>& window) {
+      return refusal(with_value(file, "dataWindow", "box2i", window));
+    };
+    EXPECT_EQ(with_window({5, 5, 104, 104}), "none");
+    EXPECT_NE(with_window({0, 0, 9999, 9999}).find("cannot hold 10000x10000"), std::string::npos);
+    EXPECT_NE(with_window({0, 0, 32768, 0}).find("out of range"), std::string::npos);
+    EXPECT_NE(with_window({5, 0, 4, 0}).find("out of range"), std::string::npos);
+    EXPECT_NE(with_window({0x80000000U, 0, 0x7fffffffU, 0}).find("out of range"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -80,7 +80,9 @@ void apply(const Overrides& overrides, Json* root) {
 
 void check_read(const Overrides& overrides, const std::vector<Case>& cases) {
   for (const auto& [name, value] : overrides.items()) {
-    const auto reads = [&](const Case& c) { return c.parameters.contains(name) && !has_own(c.method, name); };
+    const auto reads = [&, &key = name](const Case& c) {
+      return c.parameters.contains(key) && !has_own(c.method, key);
+    };
     if (std::ranges::none_of(cases, reads))
       throw fail(ErrorKind::config, "--set {}: no case of this config reads it", name);
   }

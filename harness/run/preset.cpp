@@ -18,11 +18,14 @@ fs::path folder() { return data_root() / "configs" / "presets"; }
 
 // That of a config's keys, as far as a preset may have them; whatever else it holds is a method's own
 // parameter.
-Json preset_schema() {
-  Json schema = {{"type", "object"}, {"properties", Json::object()}};
-  std::vector<std::string> keys = case_key_names();
-  keys.insert(keys.end(), {"description", "frame", "ism"});
-  for (const auto& key : keys) schema["properties"][key] = config_schema().at("properties").at(key);
+const Json& preset_schema() {
+  static const Json schema = [] {
+    Json made = {{"type", "object"}, {"properties", Json::object()}};
+    std::vector<std::string> keys = case_key_names();
+    keys.insert(keys.end(), {"description", "frame", "ism"});
+    for (const auto& key : keys) made["properties"][key] = config_schema().at("properties").at(key);
+    return made;
+  }();
   return schema;
 }
 
@@ -61,9 +64,8 @@ Json load_preset(const std::string& name) {
 
 Json read_preset(const fs::path& file) {
   const JsonDocument doc = JsonDocument::load(file, ErrorKind::config);
-  const Json schema = preset_schema();
-  check_schema(doc, schema);
-  check_keys(doc, schema);
+  check_schema(doc, preset_schema());
+  check_keys(doc, preset_schema());
   Json keys = doc.root();
   keys.erase("description");
   return keys;

@@ -12,16 +12,16 @@ namespace vsglbench {
 
 struct RunOptions {
   std::filesystem::path config;
-  std::filesystem::path out;     // empty: reports/out/<name of the config>
-  std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
+  std::filesystem::path out;      // empty: reports/out/<name of the config>
+  std::filesystem::path assets;   // empty: $VSGLBENCH_ASSETS
   std::vector<std::string> only;  // globs over case ids; empty: all
   std::vector<std::string> set;   // "KEY=VALUE", in place of what the config says
-  std::string device;            // as in select_device()
-  bool force = false;            // measure again what an interrupted run had finished
-  bool validation = false;       // with the validation layers; a message fails the run
-  bool check_passes = false;     // every pass by itself, its outputs looked at: FrameParameters::check_passes
-  double time_limit_s = 0;       // replaces the config's; 0: the config's
-  Announce sabotage;             // tests only, see WorkerOptions
+  std::string device;             // as in select_device()
+  bool force = false;             // measure again what an interrupted run had finished
+  bool validation = false;        // with the validation layers; a message fails the run
+  bool check_passes = false;  // every pass by itself, its outputs looked at: FrameParameters::check_passes
+  double time_limit_s = 0;    // replaces the config's; 0: the config's
+  Announce sabotage;          // tests only, see WorkerOptions
   std::vector<std::string> argv;
 };
 

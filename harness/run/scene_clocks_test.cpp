@@ -7,7 +7,8 @@ namespace {
 
 TEST(SceneClocks, ReadingsAddUp) {
   std::optional<ClockReport> report;
-  add_reading({.sm_mhz = 1980, .memory_mhz = 3201, .celsius = 60, .watts = 500, .power_state = "P0"}, &report);
+  add_reading({.sm_mhz = 1980, .memory_mhz = 3201, .celsius = 60, .watts = 500, .power_state = "P0"},
+              &report);
   add_reading({.sm_mhz = 1200,
                .memory_mhz = 3201,
                .celsius = 71,

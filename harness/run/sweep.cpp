@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -27,14 +28,15 @@ struct Axis {
 // One entry of `methods`, checked.
 class Entry {
  public:
-  Entry(const JsonDocument& doc, const Json& root, const Overrides& overrides, size_t index)
+  Entry(const JsonDocument& doc, const Json& root, const Json& root_preset, const Overrides& overrides,
+        size_t index)
       : doc_(doc),
         root_(root),
         json_(root.at("methods").at(index)),
         index_(index),
         at_(fmt::format("/methods/{}", index)),
         preset_(preset_of(doc, json_, at_)),
-        root_preset_(preset_of(doc, root, "")),
+        root_preset_(root_preset),
         method_(find()),
         keys_{method_, root.value("measure", "frame") == "frame"} {
     for (const auto& [key, value] : overrides.items()) preset_.erase(key);
@@ -117,7 +119,7 @@ class Entry {
   void add_own_axis(const std::string& name) {
     if (json_.contains(name)) return push_axis(name, nullptr, json_.at(name), true);
     if (find_case_key(name)) return;
-    for (const Json* preset : {&preset_, &root_preset_}) {
+    for (const Json* preset : {&std::as_const(preset_), &root_preset_}) {
       if (preset->contains(name)) return push_axis(name, nullptr, preset->at(name), false);
     }
   }
@@ -238,7 +240,8 @@ class Entry {
   const Json &root_, &json_;
   size_t index_;
   std::string at_;
-  Json preset_, root_preset_;
+  Json preset_;
+  const Json& root_preset_;
   const MethodInfo& method_;
   const MethodKeys keys_;
   std::vector<Axis> axes_;
@@ -249,8 +252,10 @@ class Entry {
 std::vector<Case> expand_cases(const JsonDocument& doc, const Json& root, const Overrides& overrides,
                                const FrameParameters& base) {
   const Json& scenes = root.at("scenes");
+  const Json root_preset = preset_of(doc, root, "");
   std::vector<Entry> entries;
-  for (size_t i = 0; i < root.at("methods").size(); ++i) entries.emplace_back(doc, root, overrides, i);
+  for (size_t i = 0; i < root.at("methods").size(); ++i)
+    entries.emplace_back(doc, root, root_preset, overrides, i);
   std::vector<NamedCase> made;
   for (const Entry& entry : entries) entry.expand(base, kMaxCases / scenes.size(), &made);
   name_cases(&made);
