@@ -55,8 +55,8 @@ std::optional<double> seed_value(const SeedResult& s, const std::string& metric)
   throw std::logic_error("no metric " + metric);
 }
 
-Trial trial_of(const CaseResult& c, const PaperClaim& claim, const std::string& metric) {
-  Trial t{&c, {}, {}};
+ClaimCase trial_of(const CaseResult& c, const PaperClaim& claim, const std::string& metric) {
+  ClaimCase t{&c, {}, {}};
   const std::string time = is_time(metric) ? metric.substr(5) : "method";
   if (is_time(metric) || claim.equal_time) {
     const auto ms = time_of(c, time);
@@ -78,7 +78,7 @@ std::optional<PairRatio> over_seeds(std::map<uint64_t, double> by_seed) {
   return PairRatio{std::move(by_seed), {mean.mean, mean.ci95}};
 }
 
-std::optional<PairRatio> ratio_of_errors(const Trial& a, const std::map<uint64_t, double>& b) {
+std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint64_t, double>& b) {
   std::map<uint64_t, double> logs;
   for (const auto& [seed, log] : a.logs) {
     const auto other = b.find(seed);
@@ -88,7 +88,7 @@ std::optional<PairRatio> ratio_of_errors(const Trial& a, const std::map<uint64_t
 }
 
 // What is noise in a time may be in either direction.
-std::optional<PairRatio> ratio_of_times(const Trial& a, const Trial& b, double noise) {
+std::optional<PairRatio> ratio_of_times(const ClaimCase& a, const ClaimCase& b, double noise) {
   if (!a.ms || !b.ms || !(a.ms->ci95.lo > 0) || !(b.ms->ci95.lo > 0)) return std::nullopt;
   const double slack = std::log1p(noise);
   return PairRatio{
@@ -99,13 +99,13 @@ std::optional<PairRatio> ratio_of_times(const Trial& a, const Trial& b, double n
 
 // Logarithms of the error of a ladder, by time, at a time between its ends; nothing outside, but within
 // `slack` of an end that end's.
-std::optional<std::map<uint64_t, double>> at_time(const std::vector<const Trial*>& ladder, double ms,
+std::optional<std::map<uint64_t, double>> at_time(const std::vector<const ClaimCase*>& ladder, double ms,
                                                   double slack) {
   if (ladder.empty() || ms < ladder.front()->ms->value / slack || ms > ladder.back()->ms->value * slack)
     return std::nullopt;
   if (ms <= ladder.front()->ms->value) return ladder.front()->logs;
   for (size_t k = 1; k < ladder.size(); ++k) {
-    const Trial &left = *ladder[k - 1], &right = *ladder[k];
+    const ClaimCase &left = *ladder[k - 1], &right = *ladder[k];
     if (ms > right.ms->value) continue;
     const double t = std::log(ms / left.ms->value) / std::log(right.ms->value / left.ms->value);
     std::map<uint64_t, double> out;
@@ -120,7 +120,7 @@ std::optional<std::map<uint64_t, double>> at_time(const std::vector<const Trial*
 
 // The error of a beside that of the ladder at a's time. The interval holds what it would be at either end of
 // what that time may be.
-std::optional<PairRatio> ratio_at_time(const Trial& a, const std::vector<const Trial*>& ladder,
+std::optional<PairRatio> ratio_at_time(const ClaimCase& a, const std::vector<const ClaimCase*>& ladder,
                                        double noise) {
   const double slack = 1 + std::max(noise, kSmallestEffect);
   const auto middle = at_time(ladder, a.ms->value, slack);
@@ -144,13 +144,13 @@ using Signature = std::string;
 // Everything that both cases have and neither side names.
 class Matching {
  public:
-  Matching(const PaperClaim& claim, const std::vector<Trial>& others) : claim_(claim), others_(others) {
+  Matching(const PaperClaim& claim, const std::vector<ClaimCase>& others) : claim_(claim), others_(others) {
     for (size_t i = 0; i < others.size(); ++i) by_keys_[keys_of(*others[i].result)].push_back(i);
   }
 
   // Trials that are like `c` in it.
-  std::vector<const Trial*> of(const CaseResult& c) {
-    std::vector<const Trial*> out;
+  std::vector<const ClaimCase*> of(const CaseResult& c) {
+    std::vector<const ClaimCase*> out;
     const std::set<std::string> own = keys_of(c);
     for (const auto& [keys, members] : by_keys_) {
       std::set<std::string> common;
@@ -184,16 +184,16 @@ class Matching {
   }
 
   const PaperClaim& claim_;
-  const std::vector<Trial>& others_;
+  const std::vector<ClaimCase>& others_;
   std::map<std::set<std::string>, std::vector<size_t>> by_keys_;
   std::map<std::pair<std::set<std::string>, std::set<std::string>>, std::map<Signature, std::vector<size_t>>>
       indices_;
 };
 
 // A ladder a choice of all that the claim does not fix, by time.
-std::vector<std::vector<const Trial*>> ladders(const std::vector<const Trial*>& trials) {
-  std::map<std::string, std::vector<const Trial*>> by_rest;
-  for (const Trial* t : trials) {
+std::vector<std::vector<const ClaimCase*>> ladders(const std::vector<const ClaimCase*>& trials) {
+  std::map<std::string, std::vector<const ClaimCase*>> by_rest;
+  for (const ClaimCase* t : trials) {
     if (!t->ms) continue;
     std::string rest = t->result->method;
     for (const auto& item : t->result->parameters.items()) {
@@ -201,9 +201,9 @@ std::vector<std::vector<const Trial*>> ladders(const std::vector<const Trial*>& 
     }
     by_rest[rest].push_back(t);
   }
-  std::vector<std::vector<const Trial*>> out;
+  std::vector<std::vector<const ClaimCase*>> out;
   for (auto& [rest, ladder] : by_rest) {
-    std::ranges::sort(ladder, {}, [](const Trial* t) { return t->ms->value; });
+    std::ranges::sort(ladder, {}, [](const ClaimCase* t) { return t->ms->value; });
     out.push_back(std::move(ladder));
   }
   return out;
@@ -229,7 +229,7 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
                                 double noise) {
   std::vector<PairRatio> out;
   Matching matching(claim, sides.b);
-  for (const Trial& a : sides.a) {
+  for (const ClaimCase& a : sides.a) {
     const auto others = matching.of(*a.result);
     if (claim.equal_time) {
       if (!a.ms) continue;
@@ -238,7 +238,7 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
       }
       continue;
     }
-    for (const Trial* b : others) {
+    for (const ClaimCase* b : others) {
       auto ratio = is_time(metric) ? ratio_of_times(a, *b, noise) : ratio_of_errors(a, b->logs);
       if (ratio) out.push_back(std::move(*ratio));
     }

@@ -9,14 +9,14 @@
 namespace vsglbench {
 
 // A case of one side.
-struct Trial {
+struct ClaimCase {
   const CaseResult* result;
   std::map<uint64_t, double> logs;  // of the metric, by seed
   std::optional<Estimate> ms;       // of the time that counts
 };
 
 struct Sides {
-  std::vector<Trial> a, b;
+  std::vector<ClaimCase> a, b;
 };
 
 // Logarithms of a / b: by seed, of errors, and as an estimate with its interval.
