@@ -65,7 +65,7 @@ std::string what_is_missing(const Sides& sides, const PaperClaim& claim, const s
   const std::string both = claim.both.empty() ? "" : " " + settings_text(claim.both);
   if (sides.a.empty()) return "no case of " + settings_text(claim.a) + both;
   if (sides.b.empty()) return "no case of " + settings_text(claim.b) + both;
-  const auto measured = [&](const Trial& t) {
+  const auto measured = [&](const ClaimCase& t) {
     return is_time(metric) ? t.ms.has_value() : t.logs.size() > 1;
   };
   if (std::ranges::none_of(sides.a, measured) || std::ranges::none_of(sides.b, measured))
