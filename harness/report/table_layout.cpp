@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "base/nearest.h"
 #include "report/case_names.h"
@@ -66,12 +67,7 @@ void sort_cases(const Report& report, const TableOptions& options, std::vector<c
   const std::vector<Column> by =
       named_columns(only_generation(report) ? generation_columns() : frame_columns(),
                     {options.sort.substr(falling ? 1 : 0)});
-  struct Key {
-    size_t scene;
-    bool without;
-    double value;
-    auto operator<=>(const Key&) const = default;
-  };
+  using Key = std::tuple<size_t, bool, double>;  // scene, whether without a number, the number
   std::vector<std::pair<Key, const CaseResult*>> keyed;
   std::map<std::string, size_t> scenes;
   for (const CaseResult* c : *cases) {
@@ -80,7 +76,7 @@ void sort_cases(const Report& report, const TableOptions& options, std::vector<c
         c->status == Status::ok ? by.front().value(*c, first_of_scene(report, *c)) : std::nullopt;
     keyed.push_back({{scene, !value, falling ? -value.value_or(0) : value.value_or(0)}, c});
   }
-  std::ranges::stable_sort(keyed, [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(keyed, {}, [](const auto& k) { return k.first; });
   for (size_t i = 0; i < keyed.size(); ++i) (*cases)[i] = keyed[i].second;
 }
 
