@@ -6,6 +6,7 @@
 #include <map>
 
 #include "answer/chart_rows.h"
+#include "report/noise.h"
 
 namespace vsglbench {
 namespace {
@@ -15,14 +16,6 @@ constexpr const char* kOthers = "#999999";
 // The last one in place of black, in which the sums are drawn.
 constexpr size_t kBlack = 6;
 constexpr const char* kYellow = "#f0e442";
-
-bool counts(const PassId& pass, const std::string& time) {
-  if (time == "frame") return true;
-  if (time == "method") return pass.stage != PassStage::draw;
-  if (time == "visibility" || pass.stage != PassStage::generate) return false;
-  if (time == "generate") return true;
-  return pass.half == (time == "generate.rsm" ? Half::rsm : Half::gbuffer);
-}
 
 // Passes in the order of a frame, by name, with the sum of their medians over the points.
 struct PassWeights {
@@ -34,7 +27,7 @@ PassWeights weights_of(const ChartSource& source, const std::vector<size_t>& poi
   PassWeights out;
   for (const size_t i : points) {
     for (const PassTiming& p : source.group.points[i].result->passes) {
-      if (!counts(p.pass, source.options.time)) continue;
+      if (!counts_in(source.options.time, p.pass)) continue;
       if (out.ms.try_emplace(p.pass.name(), 0).second) out.names.push_back(p.pass.name());
       out.ms[p.pass.name()] += p.ms.median;
     }
@@ -62,7 +55,7 @@ std::vector<std::vector<ChartBar>> stacked(const ChartSource& source, const std:
   for (size_t row = 0; row < rows.size(); ++row) {
     std::vector<double> ms(named.size() + 1, 0);
     for (const PassTiming& p : source.group.points[rows[row]].result->passes) {
-      if (!counts(p.pass, source.options.time)) continue;
+      if (!counts_in(source.options.time, p.pass)) continue;
       const auto at = std::ranges::find(named, p.pass.name());
       ms[static_cast<size_t>(at - named.begin())] += p.ms.median;
     }

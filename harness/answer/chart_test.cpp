@@ -10,6 +10,7 @@
 #include "answer/large_report.h"
 #include "answer/made_report.h"
 #include "base/file.h"
+#include "report/noise.h"
 
 namespace vsglbench {
 namespace {
@@ -123,9 +124,13 @@ TEST_F(ChartTest, PointsAreTheReports) {
   }
 }
 
+TEST_F(ChartTest, EveryTimeHasWords) {
+  for (const std::string& time : time_columns()) EXPECT_FALSE(time_words(time).empty()) << time;
+}
+
 TEST_F(ChartTest, TheHostsRaysAreNoPasses) {
   const Report r = large_report(40);
-  const AnswerOptions options{"smape", "visibility"};
+  const AnswerOptions options{"smape", "rays"};
   const auto groups = point_groups(r, options);
   ASSERT_FALSE(groups.empty());
   std::vector<std::string> remarks;

@@ -109,7 +109,11 @@ std::string time_words(const std::string& time) {
       {"generate", "light generation in both halves"},
       {"generate.rsm", "light generation from the RSM"},
       {"generate.gbuffer", "light generation from the G-buffer"},
-      {"visibility", "the host's shadow rays"}};
+      {"fixed", "the raster of the two halves"},
+      {"importance", "the importance passes"},
+      {"visibility", "shadow maps"},
+      {"shade", "shading"},
+      {"rays", "the host's shadow rays"}};
   return words.at(time);
 }
 

@@ -147,6 +147,11 @@ Column ratio_column() {
   return column;
 }
 
+Column on_request(Column column) {
+  column.on_request = true;
+  return column;
+}
+
 }  // namespace
 
 const std::vector<Column>& frame_columns() {
@@ -165,6 +170,10 @@ const std::vector<Column>& frame_columns() {
       time_column("method", "method ms [95 %]", true),
       time_column("rays", "rays ms (host)"),
       time_column("frame", "frame ms"),
+      on_request(time_column("fixed", "fixed ms")),
+      on_request(time_column("importance", "importance ms")),
+      on_request(time_column("visibility", "visibility ms")),
+      on_request(time_column("shade", "shade ms")),
   };
   return columns;
 }

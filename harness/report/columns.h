@@ -20,6 +20,7 @@ struct Column {
   std::function<std::optional<Interval>(const CaseResult& c, const CaseResult& first)> interval;
   // What is noise in this column and scene, as text; empty where that is not known.
   std::function<std::string(const Report& report, const std::string& scene)> floor;
+  bool on_request = false;  // stands in a table only where it is named
 };
 
 // Columns for whole frames: errors are means over seeds, and one that is not above the reference's own noise

@@ -37,6 +37,15 @@ const std::vector<std::string>& time_columns() {
   return names;
 }
 
+bool counts_in(const std::string& column, const PassId& pass) {
+  if (column == "frame") return true;
+  if (column == "method") return pass.stage != PassStage::draw;
+  if (const auto stage = stage_of(column)) return pass.stage == *stage;
+  if (!column.starts_with("generate") || pass.stage != PassStage::generate) return false;
+  if (column == "generate") return true;
+  return pass.half == (column == "generate.rsm" ? Half::rsm : Half::gbuffer);
+}
+
 std::optional<Summary> time_of(const CaseResult& c, const std::string& column) {
   if (column == "generate") return c.generate ? std::optional(c.generate->total) : std::nullopt;
   if (column == "generate.gbuffer") return generate_time(c.passes, Half::gbuffer);

@@ -14,6 +14,9 @@ namespace vsglbench {
 // ones; "frame", the span of all passes. "rays": exact visibility, on the host.
 const std::vector<std::string>& time_columns();
 
+// Whether a pass counts in this time: `rays` has none.
+bool counts_in(const std::string& column, const PassId& pass);
+
 // ms of each frame; nothing when the case has no such time.
 std::optional<Summary> time_of(const CaseResult& c, const std::string& column);
 

@@ -64,6 +64,17 @@ TEST(Noise, AFrameIsTheSumOfItsParts) {
   EXPECT_FALSE(time_of(c, "importance"));
 }
 
+// The passes that count in a time sum to it.
+TEST(Noise, ATimeIsTheSumOfThePassesThatCountInIt) {
+  const CaseResult c = measured(1, 2, 6, 10);
+  for (const std::string& column : time_columns()) {
+    double sum = 0;
+    for (const PassTiming& p : c.passes) sum += counts_in(column, p.pass) ? p.ms.median : 0;
+    const auto time = time_of(c, column);
+    EXPECT_NEAR(sum, time ? time->median : 0, 1e-12) << column;
+  }
+}
+
 TEST(Noise, ATimeThatTheClockDidNotSeeIsLeftOut) {
   const AaPair pair = aa_pair(measured(0, 2, 6, 10), measured(1, 2, 6, 10));
   EXPECT_EQ(floor_of(pair, "generate.gbuffer"), -1);

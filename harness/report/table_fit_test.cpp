@@ -59,8 +59,17 @@ std::vector<std::string> order(const std::string& table) {
 
 TEST(TableFit, WithoutALimitNothingIsLeftOut) {
   const std::string table = terminal_table(three());
-  EXPECT_TRUE(contains(table, "visibility ms (host)"));
+  EXPECT_TRUE(contains(table, "rays ms (host)"));
   EXPECT_FALSE(contains(table, "left out"));
+}
+
+TEST(TableFit, ThePartsOfAFrameStandWhereTheyAreNamed) {
+  EXPECT_FALSE(contains(terminal_table(three()), "shade ms"));
+  TableOptions options;
+  options.columns = {"fixed", "shade"};
+  const std::string table = terminal_table(three(), options);
+  EXPECT_TRUE(contains(table, "fixed ms"));
+  EXPECT_TRUE(contains(table, "shade ms"));
 }
 
 TEST(TableFit, FitsAndSaysWhatItLeftOut) {

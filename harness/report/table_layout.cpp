@@ -49,6 +49,7 @@ std::vector<Column> chosen_columns(const Report& report, const std::vector<const
                                    const std::vector<std::string>& names) {
   std::vector<Column> all = only_generation(report) ? generation_columns() : frame_columns();
   if (!names.empty()) return named_columns(all, names);
+  std::erase_if(all, [](const Column& column) { return column.on_request; });
   const auto is_empty = [&](const Column& column) {
     return std::ranges::none_of(cases, [&](const CaseResult* c) {
       return c->status == Status::ok && !column.number(*c, first_of_scene(report, *c)).empty();
