@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "answer/budget.h"
 #include "answer/front.h"
@@ -11,7 +12,9 @@
 namespace vsglbench {
 namespace {
 
-constexpr size_t kMostDominators = 3;  // named of each dominated point
+constexpr size_t kMostDominators = 3;  // told of each dominated point
+constexpr size_t kMostPairs = 24;      // told of each knob
+constexpr size_t kMostBudgets = 24;    // of each front
 constexpr size_t kSteps = 5;  // equal times and errors, evenly spaced in the logarithm over the front
 
 Json interval(const Interval& i) { return {i.lo, i.hi}; }
@@ -27,13 +30,16 @@ Json point_json(const PointGroup& g, size_t i) {
           {"error_ci95", interval(p.error.ci95)}};
 }
 
-Json others_json(const PointGroup& g) {
+// Every point that is not of the front, and where in its list those stand that dominate it, or could.
+Json others_json(const PointGroup& g, const std::vector<size_t>& front) {
+  std::map<size_t, size_t> places;
+  for (size_t k = 0; k < front.size(); ++k) places[front[k]] = k;
   Json out = Json::array();
   for (const Placed& placed : place(g)) {
     if (placed.standing == Standing::front) continue;
     Json by = Json::array();
     for (const size_t f : placed.by) {
-      if (by.size() < kMostDominators) by.push_back(id(g, f));
+      if (by.size() < kMostDominators) by.push_back(places.at(f));
     }
     out.push_back(
         {{"case", id(g, placed.point)}, {"standing", std::string(name(placed.standing))}, {"by", by}});
@@ -66,30 +72,43 @@ template <class At>
 Json equal_json(const PointGroup& g, const std::vector<double>& at, const char* axis, const char* value,
                 At read) {
   Json out = Json::array();
+  const auto stairs = staircases(g);
   for (const double step : at) {
     Json by_method = Json::object();
-    for (const auto& [method, stairs] : staircases(g)) {
-      if (const std::optional<double> v = read(g, stairs, step)) by_method[method] = *v;
+    for (const auto& [method, points] : stairs) {
+      if (const std::optional<double> v = read(g, points, step)) by_method[method] = *v;
     }
     out.push_back({{axis, step}, {value, by_method}});
   }
   return out;
 }
 
-Json knobs_json(const PointGroup& g) {
+Json pair_json(const PointGroup& g, const Price& p) {
+  Json pair = {{"from", p.from},          {"to", p.to},          {"before", id(g, p.before)},
+               {"after", id(g, p.after)}, {"error", p.error},    {"ms", p.ms},
+               {"pass", p.pass},          {"pass_ms", p.pass_ms}};
+  if (const auto price = p.error_per_ms()) pair["error_per_ms"] = *price;
+  return pair;
+}
+
+// Of many pairs those that touch the front come first.
+Json knobs_json(const PointGroup& g, const std::vector<size_t>& front) {
   const std::vector<Price> all = prices(g);
+  const std::set<size_t> ahead(front.begin(), front.end());
+  std::map<std::string, std::vector<const Price*>> by_key;
+  for (const bool touches : {true, false}) {
+    for (const Price& p : all) {
+      if ((ahead.contains(p.before) || ahead.contains(p.after)) == touches) by_key[p.key].push_back(&p);
+    }
+  }
   Json out = Json::array();
   for (const KnobSummary& k : knob_summaries(g, all)) {
     Json pairs = Json::array();
-    for (const Price& p : all) {
-      if (p.key != k.key) continue;
-      Json pair = {{"from", p.from},          {"to", p.to},          {"before", id(g, p.before)},
-                   {"after", id(g, p.after)}, {"error", p.error},    {"ms", p.ms},
-                   {"pass", p.pass},          {"pass_ms", p.pass_ms}};
-      if (const auto price = p.error_per_ms()) pair["error_per_ms"] = *price;
-      pairs.push_back(std::move(pair));
+    for (const Price* p : by_key[k.key]) {
+      if (pairs.size() < kMostPairs) pairs.push_back(pair_json(g, *p));
     }
     out.push_back({{"key", k.key},
+                   {"pairs_in_all", k.pairs},
                    {"error_ratio", k.error_ratio},
                    {"time_ratio", k.cost_ratio},
                    {"pass", k.pass},
@@ -122,7 +141,8 @@ Json group_json(const Report& report, const PointGroup& g, const AnswerOptions& 
   Json front_points = Json::array(), budgets = Json::array();
   for (const size_t i : front) {
     front_points.push_back(point_json(g, i));
-    budgets.push_back(budget_json(error_budget(report, *g.points[i].result, options)));
+    if (budgets.size() < kMostBudgets)
+      budgets.push_back(budget_json(error_budget(report, *g.points[i].result, options)));
   }
   Json out = {{"scene", g.scene},
               {"visibility", g.visibility},
@@ -131,11 +151,11 @@ Json group_json(const Report& report, const PointGroup& g, const AnswerOptions& 
               {"error_floor", g.error_floor},
               {"points", g.points.size()},
               {"front", front_points},
-              {"others", others_json(g)},
+              {"others", others_json(g, front)},
               {"equal_time", equal_json(g, steps(first.ms.value, last.ms.value), "ms", "errors", error_at)},
               {"equal_error",
                equal_json(g, steps(first.error.value, last.error.value), "error", "ms", time_to_reach)},
-              {"knobs", knobs_json(g)},
+              {"knobs", knobs_json(g, front)},
               {"budgets", budgets}};
   if (g.noise_known) out["time_noise"] = g.noise;
   return out;
@@ -155,6 +175,7 @@ Json analysis_of(const Report& report, const std::string& time) {
     for (const PointGroup& g : point_groups(report, options))
       groups.push_back(group_json(report, g, options));
   }
+  if (groups.empty()) return nullptr;
   return {{"time", time}, {"groups", groups}};
 }
 

@@ -9,7 +9,8 @@ namespace vsglbench {
 // Metrics that an analysis is made of, where cases have them.
 const std::vector<std::string>& analysed_metrics();
 
-// As analysis.schema.json says; an empty list where no case has both error and time.
+// As report.schema.json says under `analysis`; null where no case has both an error and this time (a name of
+// report/noise.h). Of 10,000 cases it takes about a second.
 Json analysis_of(const Report& report, const std::string& time = "method");
 
 }  // namespace vsglbench

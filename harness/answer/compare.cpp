@@ -63,10 +63,31 @@ double larger_noise(const Report& base, const Report& now, const std::string& sc
   return noise;
 }
 
-// The A/A pair's time that a pass is part of.
-std::string column_of(const PassId& pass) {
-  if (pass.stage == PassStage::draw) return "frame";
-  return pass.stage == PassStage::generate ? "generate" : "method";
+// The times of an A/A pair that a pass is part of, the narrowest first; reports of old lack that.
+std::vector<std::string> columns_of(const PassId& pass) {
+  switch (pass.stage) {
+    case PassStage::draw:
+      return {"fixed", "frame"};
+    case PassStage::generate:
+      return {"generate"};
+    case PassStage::importance:
+      return {"importance", "method"};
+    case PassStage::visibility:
+      return {"visibility", "method"};
+    case PassStage::shade:
+      return {"shade", "method"};
+    default:
+      return {"method"};
+  }
+}
+
+double noise_of_pass(const Report& base, const Report& now, const std::string& scene, const PassId& pass) {
+  const auto is_known = [&](const std::string& time) {
+    return noise_of(base, scene, time) && noise_of(now, scene, time);
+  };
+  const std::vector<std::string> columns = columns_of(pass);
+  const auto known = std::ranges::find_if(columns, is_known);
+  return larger_noise(base, now, scene, known == columns.end() ? columns.back() : *known);
 }
 
 struct Pair {
@@ -190,7 +211,7 @@ void compare_passes(const Report& base, const Report& now, const std::vector<Pai
       const auto at = std::ranges::find(p.now->passes, pass.pass, &PassTiming::pass);
       if (at == p.now->passes.end() || !(pass.ms.median > 0) || !(at->ms.median > 0)) continue;
       logs[pass.pass.name()].push_back(std::log(at->ms.median / pass.ms.median) - unit);
-      noise[pass.pass.name()].push_back(larger_noise(base, now, p.base->scene, column_of(pass.pass)));
+      noise[pass.pass.name()].push_back(noise_of_pass(base, now, p.base->scene, pass.pass));
     }
   }
   for (const auto& [pass, values] : logs) {

@@ -60,7 +60,11 @@ std::optional<Point> point_of(const CaseResult& c, const Named& metric, const st
   std::optional<Summary> ms = time_of(c, time);
   if (!ms && time == "method") ms = method_time(c.passes);  // a report of old has the passes alone
   if (!ms || !(ms->median > 0)) return std::nullopt;
-  Point p{&c, {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})}, {}, {ms->median, ms->ci95}};
+  Point p{&c,
+          {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})},
+          {},
+          {ms->median, ms->ci95},
+          m.heavy_tailed};
   if (m.heavy_tailed) p.error = {*m.median, {*m.least, *m.largest}};
   for (const SeedResult& s : c.seeds) {
     if (const auto v = s.errors.value(metric.metric)) p.seeds.push_back(*v);
@@ -97,6 +101,17 @@ const MetricResult* metric_of(const Accuracy& accuracy, const std::string& metri
 
 std::string metric_title(const std::string& metric) { return axis(metric).title; }
 std::string metric_unit(const std::string& metric) { return axis(metric).unit; }
+
+std::string time_words(const std::string& time) {
+  static const std::map<std::string, std::string> words = {
+      {"method", "all passes but the raster of the two halves"},
+      {"frame", "the whole frame"},
+      {"generate", "light generation in both halves"},
+      {"generate.rsm", "light generation from the RSM"},
+      {"generate.gbuffer", "light generation from the G-buffer"},
+      {"visibility", "the host's shadow rays"}};
+  return words.at(time);
+}
 
 std::vector<PointGroup> point_groups(const Report& report, const AnswerOptions& options) {
   const Named& metric = axis(options.metric);

@@ -29,6 +29,7 @@ struct Point {
   Estimate error;  // in the metric's unit, mean over seeds; the median and range where seeds are heavy-tailed
   std::vector<double> seeds;  // the metric of each seed, in the report's order
   Estimate ms;                // median over frames
+  bool heavy_tailed = false;  // of its seeds: `error` is the median and the range
 };
 
 // Cases that can be compared: one scene, one reference, hence one idea of what visibility counts.
@@ -51,6 +52,8 @@ const MetricResult* metric_of(const Accuracy& accuracy, const std::string& metri
 // "SMAPE", "RMSE", …, and the unit after a number: " %" or "".
 std::string metric_title(const std::string& metric);
 std::string metric_unit(const std::string& metric);
+// What a time of report/noise.h is, in words: "the whole frame".
+std::string time_words(const std::string& time);
 
 // What one point is to another on one axis. Ratios within `margin` of 1 are not worth a word.
 enum class Relation { better, worse, same, ambiguous };

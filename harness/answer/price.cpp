@@ -5,18 +5,12 @@
 #include <map>
 #include <set>
 
+#include "answer/series.h"
+
 namespace vsglbench {
 namespace {
 
 std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
-// Numbers by size, words in the report's order, in which they come.
-void sort_values(std::vector<std::pair<Json, size_t>>* values) {
-  std::ranges::stable_sort(*values, [](const auto& a, const auto& b) {
-    return a.first.is_number() && b.first.is_number() &&
-           a.first.template get<double>() < b.first.template get<double>();
-  });
-}
 
 std::map<std::string, double> medians(const CaseResult& c) {
   std::map<std::string, double> out;
@@ -71,24 +65,11 @@ std::optional<double> Price::error_per_ms() const {
 }
 
 std::vector<Price> prices(const PointGroup& group) {
-  // By key, and by all else that a case is: the values, and which point has them.
-  std::map<std::string, std::map<std::string, std::vector<std::pair<Json, size_t>>>> families;
-  for (size_t i = 0; i < group.points.size(); ++i) {
-    const CaseResult& c = *group.points[i].result;
-    for (const auto& item : c.parameters.items()) {
-      if (item.value().is_structured()) continue;
-      Json rest = c.parameters;
-      rest[item.key()] = nullptr;
-      families[item.key()][c.method + rest.dump()].emplace_back(item.value(), i);
-    }
-  }
   std::vector<Price> out;
-  for (auto& [key, others] : families) {
+  for (const std::string& key : varied_keys(group)) {
     const size_t first = out.size();
-    for (auto& [rest, values] : others) {
-      std::ranges::sort(values, {},
-                        [&](const auto& v) { return group.points[v.second].result; });  // the report's
-      sort_values(&values);
+    for (const Series& series : series_over(group, key)) {
+      const auto& values = series.points;
       const bool numbers = values.front().first.is_number();
       for (size_t k = 1; k < values.size(); ++k) {
         const auto& from = values[numbers ? k - 1 : 0];

@@ -33,18 +33,6 @@ std::string with_interval(const Estimate& e, const std::string& unit) {
   return fmt::format("{}{} [{}, {}]", number(e.value), unit, number(e.ci95.lo), number(e.ci95.hi));
 }
 
-// What time is, as a reader needs it said.
-std::string time_words(const std::string& time) {
-  static const std::map<std::string, std::string> words = {
-      {"method", "all passes but the raster of the two halves"},
-      {"frame", "the whole frame"},
-      {"generate", "light generation in both halves"},
-      {"generate.rsm", "light generation from the RSM"},
-      {"generate.gbuffer", "light generation from the G-buffer"},
-      {"visibility", "the host's shadow rays"}};
-  return words.at(time);
-}
-
 class Answer {
  public:
   Answer(const Report& report, const Question& question, const PointGroup& group)
@@ -56,6 +44,7 @@ class Answer {
   }
 
   std::string text() const {
+    if (!question_.error && !question_.ms) return summary() + "\n";
     std::string out = sentence() + "\n";
     if (fitting_.empty()) return out;
     return out + table();
@@ -94,6 +83,24 @@ class Answer {
                     metric_title(metric()), with_interval(best.error, metric_unit(metric())),
                     with_interval(best.ms, ""), time_words(question_.options.time), rivals());
     return out + " " + halving(best);
+  }
+
+  // Where nothing was asked: the least error, and what half of that exactness costs.
+  std::string summary() const {
+    const std::vector<size_t> front = front_of(group_);
+    const Point& least = group_.points[front.back()];
+    std::string out =
+        fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(), metric_title(metric()),
+                    with_interval(least.error, metric_unit(metric())), label(front.back()),
+                    with_interval(least.ms, ""), time_words(question_.options.time));
+    const auto is_near = [&](size_t i) { return group_.points[i].error.value <= 2 * least.error.value; };
+    const size_t cheapest = *std::ranges::find_if(front, is_near);
+    if (cheapest == front.back()) return out + " No cheaper case is within twice that error.";
+    const Point& p = group_.points[cheapest];
+    return out +
+           fmt::format(" Within twice that error {} is the cheapest: {} in {} ms, {:.2g} times as long.",
+                       label(cheapest), error_text(p.error.value), number(p.ms.value),
+                       p.ms.value / least.ms.value);
   }
 
   std::string nearest() const {

@@ -9,7 +9,8 @@
 
 namespace vsglbench {
 
-// One of the two is asked.
+// At most one of the two is asked; where none is, the reply is two sentences a scene: the least error, and
+// the cheapest case within twice that.
 struct Question {
   AnswerOptions options;
   std::string scene;                // empty: every scene of the report

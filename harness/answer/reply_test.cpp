@@ -36,6 +36,22 @@ TEST(Reply, NamesTheCheapestThatReachesAnError) {
   EXPECT_TRUE(has(text, "4.00")) << text;        // × time
 }
 
+TEST(Reply, WithoutAQuestionNamesTheLeastErrorAndWhatIsCheaper) {
+  const std::string text = reply(sweep(), {});
+  EXPECT_TRUE(has(text, "the least SMAPE is 3.12 % [")) << text;
+  EXPECT_TRUE(has(text, "by cut N=1024, in 16 [")) << text;
+  EXPECT_TRUE(has(text, "No cheaper case is within twice that error.")) << text;
+  MadeReport more(1, 0, 0);
+  more.report = sweep();
+  more.add({.method = "cut",
+            .parameters = {{"N", 512}, {"visibility", "exact"}},
+            .passes = {{"gbuffer", 50}, {"shade", 4}},
+            .error = 6});
+  EXPECT_TRUE(has(reply(more.report, {}),
+                  "Within twice that error cut N=512 is the cheapest: 6 % in 4 ms, 0.25 times as long."))
+      << reply(more.report, {});
+}
+
 TEST(Reply, NamesTheBestWithinATime) {
   Question q;
   ask_time("5ms", &q);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "base/error.h"
@@ -23,6 +24,8 @@ Container read_all(const fs::path& path) {
   if (fs::is_directory(path, ec)) throw fail(ErrorKind::output, "{}: is a folder, not a file", path.string());
   std::ifstream in(path, std::ios::binary);
   if (!in) throw fail(ErrorKind::output, "{}: cannot be read: {}", path.string(), std::strerror(errno));
+  if (!fs::is_regular_file(path, ec))  // a pipe has no size
+    return Container(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   const auto size = fs::file_size(path, ec);
   Container out(ec ? 0 : size, '\0');
   in.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));

@@ -1,9 +1,11 @@
 #include "base/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
 #include "base/error.h"
 
@@ -25,6 +27,16 @@ TEST(File, WritesWholeOrNotAtAll) {
   EXPECT_EQ(read_text(path), "first");
   EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), {}), 1);
   fs::remove_all(dir);
+}
+
+TEST(File, APipeIsReadToItsEnd) {
+  const fs::path pipe = fs::temp_directory_path() / fmt::format("vsglbench_pipe_{}", ::getpid());
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string text(100'000, 'x');  // more than it holds at once
+  std::thread writer([&] { std::ofstream(pipe) << text; });
+  EXPECT_EQ(read_text(pipe), text);
+  writer.join();
+  fs::remove(pipe);
 }
 
 TEST(File, AFullDiskIsAnErrorOfOneLine) {

@@ -39,10 +39,13 @@ struct CountingIterator {
   bool operator!=(const CountingIterator& o) const { return at != o.at; }
 };
 
-// Builds the value and records a line for every pointer.
+using Lines = std::map<std::string, int>;
+
+// Builds the value and, where asked to, records a line for every pointer.
 class Builder : public nlohmann::json_sax<Json> {
  public:
-  Builder(LineCounter& counter, std::map<std::string, int>& lines) : counter_(counter), lines_(lines) {}
+  // `lines`: null where they are not wanted.
+  Builder(const LineCounter& counter, Lines* lines) : counter_(counter), lines_(lines) {}
 
   Json root;
   std::string problem;
@@ -83,21 +86,23 @@ class Builder : public nlohmann::json_sax<Json> {
 
   Json* place(Json v) {
     if (stack_.empty()) {
-      lines_[""] = counter_.line;
+      record("", counter_.line);
       root = std::move(v);
-      pointer_ = "";
       return &root;
     }
     Level& top = stack_.back();
     if (top.value->is_array()) {
-      pointer_ = fmt::format("{}/{}", top.pointer, top.value->size());
+      if (lines_) record(fmt::format("{}/{}", top.pointer, top.value->size()), counter_.line);
       top.value->push_back(std::move(v));
-      lines_[pointer_] = counter_.line;
       return &top.value->back();
     }
-    pointer_ = top.pointer + "/" + pointer_token(top.key);
-    lines_[pointer_] = key_line_;
+    if (lines_) record(top.pointer + "/" + pointer_token(top.key), key_line_);
     return &((*top.value)[top.key] = std::move(v));
+  }
+  void record(const std::string& pointer, int line) {
+    if (!lines_) return;
+    pointer_ = pointer;
+    (*lines_)[pointer_] = line;
   }
   bool put(Json v) {
     place(std::move(v));
@@ -117,12 +122,17 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  LineCounter& counter_;
-  std::map<std::string, int>& lines_;
+  const LineCounter& counter_;
+  Lines* lines_;
   std::vector<Level> stack_;
   std::string pointer_;
   int key_line_ = 1;
 };
+
+bool read(std::string_view text, LineCounter* counter, Builder* builder) {
+  const CountingIterator begin{text.data(), counter}, end{text.data() + text.size(), counter};
+  return Json::sax_parse(begin, end, builder, nlohmann::json::input_format_t::json, true, true);
+}
 
 }  // namespace
 
@@ -139,24 +149,32 @@ JsonDocument JsonDocument::load(const std::filesystem::path& path, ErrorKind kin
   } catch (const Error& e) {
     throw Error(kind, e.what());
   }
-  return parse(text, path.string(), kind);
+  return of(std::move(text), path.string(), kind);
 }
 
 JsonDocument JsonDocument::parse(std::string_view text, std::string name, ErrorKind kind) {
+  return of(std::string(text), std::move(name), kind);
+}
+
+JsonDocument JsonDocument::of(std::string text, std::string name, ErrorKind kind) {
   JsonDocument doc;
   doc.name_ = std::move(name);
   doc.kind_ = kind;
   LineCounter counter;
-  Builder builder(counter, doc.lines_);
-  const CountingIterator begin{text.data(), &counter}, end{text.data() + text.size(), &counter};
-  if (!Json::sax_parse(begin, end, &builder, nlohmann::json::input_format_t::json, true, true)) {
+  Builder builder(counter, nullptr);
+  if (!read(text, &counter, &builder))
     throw fail(kind, "{}:{}: {}", doc.name_, counter.line, builder.problem);
-  }
   doc.root_ = std::move(builder.root);
+  doc.text_ = std::move(text);
   return doc;
 }
 
 int JsonDocument::line(std::string pointer) const {
+  if (lines_.empty()) {
+    LineCounter counter;
+    Builder builder(counter, &lines_);
+    read(text_, &counter, &builder);
+  }
   for (;;) {
     if (const auto it = lines_.find(pointer); it != lines_.end()) return it->second;
     const size_t slash = pointer.rfind('/');

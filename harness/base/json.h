@@ -14,7 +14,8 @@ namespace vsglbench {
 
 using Json = nlohmann::ordered_json;
 
-// A parsed file and where each of its values stands.
+// A parsed file, and where each of its values stands. Lines are looked up in its text when one is asked for:
+// a report has millions of values, and next to none of them is ever wrong.
 class JsonDocument {
  public:
   // Throws Error(kind): "PATH:LINE: not JSON: REASON" (also for a key given twice), or the read error.
@@ -31,10 +32,12 @@ class JsonDocument {
   Error error(const std::string& pointer, const std::string& message) const;
 
  private:
+  static JsonDocument of(std::string text, std::string name, ErrorKind kind);
+
   Json root_;
-  std::string name_;
+  std::string name_, text_;
   ErrorKind kind_ = ErrorKind::config;
-  std::map<std::string, int> lines_;
+  mutable std::map<std::string, int> lines_;  // by pointer; empty until one is asked for
 };
 
 // Checks `value` (at `pointer` of `doc`) against a JSON Schema. Supported keywords: type, enum, const,

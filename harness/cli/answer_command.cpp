@@ -19,7 +19,7 @@ struct AnswerCommand {
 
 void print(const AnswerCommand& command) {
   Question question = command.question;
-  if (command.error.empty() == command.time.empty())
+  if (!command.error.empty() && !command.time.empty())
     throw fail(ErrorKind::usage, "ask for one of --error smape<=5 and --time 2ms");
   if (!command.error.empty()) ask_error(command.error, &question);
   if (!command.time.empty()) ask_time(command.time, &question);

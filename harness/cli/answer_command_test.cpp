@@ -16,10 +16,12 @@ TEST_F(CliTest, AnswerNamesAMethodAndWhatHalvingCosts) {
   EXPECT_TRUE(contains(f.out, "alv")) << f.out;  // "Halving that error", or "Half that error"
   EXPECT_TRUE(contains(f.out, "ms [95 %]")) << f.out;
   EXPECT_TRUE(contains(run({"answer", kQuick, "--time", "1000ms"}).out, "take "));
+  EXPECT_TRUE(contains(run({"answer", kQuick}).out, "cornell, with occlusion, llvmpipe")) << f.out;
 }
 
 TEST_F(CliTest, AnswerRefusesOnOneLine) {
-  expect_refused(run({"answer", kQuick}), 2, "ask for one of --error");
+  expect_refused(run({"answer", kQuick, "--error", "smape<=5", "--time", "2ms"}), 2,
+                 "ask for one of --error");
   expect_refused(run({"answer", kQuick, "--error", "smap<=5"}), 2, "did you mean 'smape'");
   expect_refused(run({"answer", kQuick, "--error", "smape"}), 2, "give one like smape<=5");
   expect_refused(run({"answer", kQuick, "--time", "2ms", "--scene", "cornel"}), 2, "did you mean 'cornell'");

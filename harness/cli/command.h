@@ -27,6 +27,9 @@ void add_sg_command(CLI::App& app, CommandResult* result);
 void add_stability_command(CLI::App& app, CommandResult* result);
 void add_table_command(CLI::App& app);
 void add_answer_command(CLI::App& app);
+void add_analyse_command(CLI::App& app);
+void add_plot_command(CLI::App& app);
+void add_claims_command(CLI::App& app);
 void add_compare_command(CLI::App& app, CommandResult* result);
 void add_export_command(CLI::App& app);
 

@@ -82,6 +82,11 @@ Json list_all_devices() {
   return out;
 }
 
+// 64.0 as 64.
+std::string number_text(const Json& value) {
+  return value.is_number() ? fmt::format("{}", value.get<double>()) : value.dump();
+}
+
 void print_text(const Json& rows) {
   size_t width = 0;
   for (const auto& row : rows) width = std::max(width, row["name"].get<std::string>().size());
@@ -89,11 +94,11 @@ void print_text(const Json& rows) {
     fmt::print("{:<{}}  {}\n", row["name"].get<std::string>(), width, row["summary"].get<std::string>());
     const std::string indent(width + 2, ' ');
     for (const auto& p : row.value("parameters", Json::array())) {
-      const std::string range = p.contains("minimum")
-                                    ? fmt::format("{} … {}", p["minimum"].dump(), p["maximum"].dump())
-                                    : p["choices"].dump();
-      fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(), p["default"].dump(),
-                 range, p["description"].get<std::string>());
+      const std::string range =
+          p.contains("minimum") ? fmt::format("{} … {}", number_text(p["minimum"]), number_text(p["maximum"]))
+                                : p["choices"].dump();
+      fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(),
+                 number_text(p["default"]), range, p["description"].get<std::string>());
     }
     if (row.contains("values")) {
       const Json& value = row["default"];

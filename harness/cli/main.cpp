@@ -117,6 +117,9 @@ int main(int argc, char** argv) {
   add_stability_command(app, &result);
   add_table_command(app);
   add_answer_command(app);
+  add_analyse_command(app);
+  add_plot_command(app);
+  add_claims_command(app);
   add_compare_command(app, &result);
   add_export_command(app);
   for (CLI::App* command : app.get_subcommands({})) {

@@ -127,6 +127,7 @@ void print_text(const Errors& e, const std::optional<FlipErrors>& flip, const Er
             : "");
   fmt::print("relative error of luminance: p50 {:.4g} %, p99 {:.4g} %, p99.9 {:.4g} %\n", q.p50, q.p99,
              q.p999);
+  if (e.p99_9) fmt::print("error of luminance over its mean: p99.9 {:.6g}\n", *e.p99_9);
   fmt::print("pixels     {} ({})\n", e.pixels, counted);
 }
 
@@ -150,15 +151,15 @@ void measure(const MetricsOptions& options) {
                       : counted.by == "A" ? "where channel A is above 0"
                                           : "of the mask");
   }
-  const Json out = {
-      {"reference", options.reference.string()},
-      {"test", options.test.string()},
-      {"width", r.image.width},
-      {"height", r.image.height},
-      {"pixels", errors.pixels},
-      {"counted", counted.by},
-      {"metrics", metrics_json(errors, flip)},
-      {"quantiles", {{"p50", quantiles.p50}, {"p99", quantiles.p99}, {"p99_9", quantiles.p999}}}};
+  Json out = {{"reference", options.reference.string()},
+              {"test", options.test.string()},
+              {"width", r.image.width},
+              {"height", r.image.height},
+              {"pixels", errors.pixels},
+              {"counted", counted.by},
+              {"metrics", metrics_json(errors, flip)},
+              {"quantiles", {{"p50", quantiles.p50}, {"p99", quantiles.p99}, {"p99_9", quantiles.p999}}}};
+  if (errors.p99_9) out["p99_9"] = *errors.p99_9;
   fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 

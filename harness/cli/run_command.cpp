@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/percent.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "report/noise.h"
 #include "report/table.h"
 #include "run/config.h"
@@ -16,11 +17,10 @@
 namespace vsglbench {
 namespace {
 
-// Says what becomes of the run, then ends as the signal wants: nothing is half written, and the scenes that
-// were finished are saved already.
+// Says what becomes of the run, then ends as the signal wants: nothing is half written, and what was found is
+// on the disk already.
 void on_interrupt(int signal) {
-  static const char message[] =
-      "\nvsglbench: interrupted; the same command goes on after the last scene that was finished\n";
+  static const char message[] = "\nvsglbench: interrupted; the same command goes on where this one ended\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
   kill_children();  // with what a method has started there
   std::signal(signal, SIG_DFL);
@@ -28,7 +28,7 @@ void on_interrupt(int signal) {
 }
 
 void print_outcome(const RunOutcome& outcome) {
-  fmt::print("{}", terminal_table(outcome.report));
+  fmt::print("{}", terminal_table(outcome.report, {.width = terminal_width()}));
   const WallTime& w = outcome.report.wall;
   fmt::print(
       "{}\n{:.1f} s in all: frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
@@ -71,18 +71,18 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
   auto config = std::make_shared<std::string>(), noise = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("run", "measure the cases of an experiment and write report.json");
   command->footer(
-      "The report is saved after every scene, whose cases are measured together. An interrupted run goes on "
-      "after the\n"
-      "last scene that was finished when the same command is given again. Cases run in processes of their "
-      "own: "
-      "one that\n"
-      "crashes, hangs or loses the device fails, and the rest goes on. A complete report in the folder is "
-      "kept as\n"
-      "report.previous.json; images are replaced.\n"
+      "What a case shows is on the disk at once; an interrupted run goes on when the same command is given "
+      "again. Cases run in\nprocesses of their own: one that crashes, hangs or loses the device fails, and "
+      "the "
+      "rest goes on. A complete report in\nthe folder is kept as report.previous.json; images are replaced.\n"
       "Example: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'");
   command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
-  command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)");
-  command->add_option("--only", options->only, "run only the cases whose id matches this glob");
+  command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)")
+      ->check([](const std::string& out) { return std::string(out.empty() ? "needs a folder" : ""); });
+  command
+      ->add_option("--only", options->only,
+                   "run only the cases whose id matches one of these globs; may come again")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--set", options->set,

@@ -45,7 +45,7 @@ double overhead_ratio() {
   const auto out = std::filesystem::temp_directory_path() / "vsglbench-bench";
   RunOptions options;
   options.config = config_path("quick");
-  options.only = "cornell/*";
+  options.only = {"cornell/*"};
   options.out = out;
   options.argv = {"vsglbench-speed"};
   const double ratio = run_config(options).report.wall.overhead_ratio;

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/file.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "report/table.h"
 #include "report/table_fill.h"
 
@@ -12,18 +14,26 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
+using Format = std::string (*)(const Report& report, const TableOptions& options);
+
+const std::map<std::string, Format>& formats() {
+  static const std::map<std::string, Format> known = {
+      {"terminal", terminal_table}, {"markdown", markdown_table}, {"csv", csv_table}, {"latex", latex_table}};
+  return known;
+}
+
 struct TableCommand {
   std::vector<fs::path> paths;
   TableOptions table;
-  bool markdown = false, fill = false, check = false;
+  std::string format = "terminal";
+  bool markdown = false, wide = false, fill = false, check = false;
 };
 
 void print(const TableCommand& command) {
-  for (const fs::path& path : command.paths) {
-    const Report report = read_report_at(path);
-    fmt::print("{}", command.markdown ? markdown_table(report, command.table)
-                                      : terminal_table(report, command.table));
-  }
+  TableOptions options = command.table;
+  if (!command.wide) options.width = terminal_width();
+  const Format write = formats().at(command.markdown ? "markdown" : command.format);
+  for (const fs::path& path : command.paths) fmt::print("{}", write(read_report_at(path), options));
 }
 
 // Writes what differs, or with `check` only says where.
@@ -55,8 +65,9 @@ void fill(const TableCommand& command) {
 
 void run(const TableCommand& command) {
   if (command.check && !command.fill) throw fail(ErrorKind::usage, "--check is of --fill; give both");
-  if (command.fill && (command.markdown || !command.table.columns.empty() || !command.table.only.empty() ||
-                       !command.table.across.empty()))
+  if (command.fill &&
+      (command.markdown || command.format != "terminal" || !command.table.sort.empty() ||
+       !command.table.columns.empty() || !command.table.only.empty() || !command.table.across.empty()))
     throw fail(ErrorKind::usage, "with --fill the marker of each table names its columns; give them there");
   command.fill ? fill(command) : print(command);
 }
@@ -86,7 +97,17 @@ void add_table_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("--across", options->table.across,
                       "method, scene or a key of the ids, such as N: its values stand across");
-  command->add_flag("--markdown", options->markdown, "as Markdown");
+  command->add_option("--sort", options->table.sort,
+                      "a column's name: within each scene the least first; -COLUMN: the largest first");
+  command
+      ->add_option("--format", options->format,
+                   "terminal, markdown, csv (numbers and intervals) or latex (booktabs)")
+      ->check(CLI::IsMember(formats()))
+      ->capture_default_str();
+  command->add_flag("--markdown", options->markdown, "as --format markdown");
+  command->add_flag(
+      "--wide", options->wide,
+      "every column in full; without it a table fits the terminal, or $COLUMNS, and says what it left out");
   command->add_flag("--fill", options->fill, "fill the tables of Markdown files");
   command->add_flag("--check", options->check,
                     "with --fill: write nothing; exit code 1 when a table differs");

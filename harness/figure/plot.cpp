@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "figure/axis.h"
 #include "image/font.h"
 
 namespace vsglbench {
@@ -61,36 +62,12 @@ Range range_of(const Plot& plot, int axis) {
   return range;
 }
 
-// 1, 2 and 5 times powers of ten.
-std::vector<std::string> ticks_between(double least, double most) {
-  std::vector<std::string> out;
-  for (int e = static_cast<int>(std::floor(std::log10(least))); std::pow(10.0, e) <= most; ++e) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double value = factor * std::pow(10.0, e);
-      if (value >= least && value <= most) out.push_back(fmt::format("{:.6g}", value));
-    }
-  }
-  return out;
-}
-
-// Whole decades where there are many; 1, 2, 5 where they are few.
-std::string log_axis(char name, Range range) {
-  const double decades = std::log10(range.most / range.least),
-               margin = std::pow(10, decades > 0 ? 0.03 * decades : 0.5);
-  range.least /= margin, range.most *= margin;
-  const std::string head =
-      fmt::format("set logscale {0}\nset {0}range [{1}:{2}]\n", name, range.least, range.most);
-  if (decades > 1.5) return head + fmt::format("set format {} '10^{{%T}}'\nset m{}tics 10\n", name, name);
-  return head +
-         fmt::format("set {}tics ({})\n", name, fmt::join(ticks_between(range.least, range.most), ","));
-}
-
 std::string axis_commands(const Plot& plot, int axis) {
   const PlotAxis& a = axis == 0 ? plot.x : plot.y;
   const char name = axis == 0 ? 'x' : 'y';
   const Range range = range_of(plot, axis);
   std::string out = fmt::format("set {}label {} noenhanced\n", name, quoted(a.label));
-  if (a.log) return out + log_axis(name, range);
+  if (a.log) return out + log_axis(name, range.least, range.most).commands;
   if (a.from_zero)
     out += fmt::format("set {}range [{}]\n", name,
                        range.least >= 0  ? "0:*"

@@ -1,5 +1,6 @@
 #include "gpu/spirv_cache.h"
 
+#include <atomic>
 #include <cstring>
 #include <string>
 
@@ -32,7 +33,9 @@ void write_cached_spirv(const fs::path& path, const std::vector<uint32_t>& spirv
     const std::string words(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
     write_text(path, Hasher().array(spirv).hex() + words);
   } catch (const Error& e) {
-    log_warning("shader cache: {}", e.what());  // a cache that can't be written costs time, not the run
+    // A cache that can't be written costs time, not the run; once is enough to say so.
+    static std::atomic_flag told;
+    if (!told.test_and_set()) log_warning("shader cache: {}", e.what());
   }
 }
 

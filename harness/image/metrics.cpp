@@ -96,6 +96,14 @@ Lit measure_lit(const Image& x, const Image& r, const Mask& mask, double mean, u
           static_cast<double>(lit) / static_cast<double>(pixels)};
 }
 
+double luminance_error_p99_9(const Image& x, const Image& r, const Mask& mask) {
+  std::vector<double> errors;
+  for (size_t i = 0; i < r.pixels.size(); ++i) {
+    if (is_kept(mask, i)) errors.push_back(std::abs(luminance64(x.pixels[i]) - luminance64(r.pixels[i])));
+  }
+  return take_quantile(errors, 0.999);
+}
+
 }  // namespace
 
 void check_comparable(const Image& x, const Image& r, const Mask& mask) {
@@ -185,6 +193,7 @@ Errors measure_errors(const Image& x, const Image& r, const Mask& mask) {
     const Lit lit = measure_lit(x, r, mask, m.luminance_r, m.pixels);
     e.smape_lit = lit.smape;
     e.lit_share = lit.share;
+    e.p99_9 = luminance_error_p99_9(x, r, mask) / m.luminance_r;
   }
   return e;
 }

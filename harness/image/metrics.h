@@ -53,6 +53,9 @@ struct Errors {
   std::optional<double> rrmse, mrse, bias;
   uint64_t pixels = 0;                                         // that the mask kept
   std::optional<double> smape_lit, lit_share, flip, flip_p99;  // lit_share: of the pixels, 0 … 1
+  // 99.9th percentile over pixels of |Y(x)−Y(r)| / mean Y(r), Y the luminance: the height of spikes, which a
+  // relative error, at most 200 %, does not tell. No value where the reference is black.
+  std::optional<double> p99_9;
   std::optional<double> value(Metric metric) const;
 };
 

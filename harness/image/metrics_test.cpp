@@ -165,6 +165,20 @@ TEST(Metrics, QuantilesOfTheRelativeError) {
   EXPECT_NEAR(q.p999, 99.9, 1e-3);
 }
 
+// A relative error is 200 % at most, however high a spike is.
+TEST(Metrics, TheHeightOfSpikesIsOverTheMeansOfTheReference) {
+  const Image r(1000, 1, glm::vec3(2));
+  for (const float height : {10.0f, 1000.0f}) {
+    Image x = r;
+    for (int k = 0; k < 3; ++k) x.pixels[k] += glm::vec3(height);
+    EXPECT_NEAR(*measure_errors(x, r).p99_9, height / 2, 1e-4 * height);
+    Image one = r;
+    one.pixels[0] += glm::vec3(height);  // in a thousandth of the pixels, less than the percentile's share
+    EXPECT_LT(*measure_errors(one, r).p99_9, 0.01 * height);
+  }
+  EXPECT_FALSE(measure_errors(r, Image(1000, 1)).p99_9);
+}
+
 TEST(Metrics, ExposureMapsTheBrightTwentiethToTheKey) {
   Image r(100, 1);
   for (int k = 0; k < 100; ++k) r.pixels[k] = glm::vec3(static_cast<float>(k) / 99 * 20);

@@ -33,7 +33,19 @@ std::string floors_of(const Report& report, const std::string& scene, double sca
 
 Column error_column(const char* name, const char* head, MetricResult Accuracy::*metric, double scale,
                     const char* format, Floor floor) {
-  Column column{name, head, {}, {}, {}};
+  Column column{name, head, {}, {}, {}, {}, {}};
+  column.value = [=](const CaseResult& c, const CaseResult&) -> std::optional<double> {
+    if (!c.accuracy) return std::nullopt;
+    const MetricResult& m = *c.accuracy.*metric;
+    const auto& v = m.heavy_tailed ? m.median : m.value;
+    return v ? std::optional(*v * scale) : std::nullopt;
+  };
+  column.interval = [=](const CaseResult& c, const CaseResult&) -> std::optional<Interval> {
+    if (!c.accuracy) return std::nullopt;
+    const MetricResult& m = *c.accuracy.*metric;
+    if (m.heavy_tailed) return Interval{*m.least * scale, *m.largest * scale};
+    return m.ci95 ? std::optional(Interval{m.ci95->lo * scale, m.ci95->hi * scale}) : std::nullopt;
+  };
   column.cell = [=](const CaseResult& c, const CaseResult&) {
     if (!c.accuracy || (*c.accuracy.*metric).empty()) return std::string();  // a report of old has fewer
     return metric_cell(*c.accuracy.*metric, scale, format, floor(c.accuracy->reference));
@@ -52,7 +64,13 @@ std::optional<double> unknown_floor(const ReferenceInfo&) { return std::nullopt;
 
 // Σ light power / Σ texel power, mean over seeds.
 Column flux_column() {
-  Column column{"flux", "flux", {}, {}, {}};
+  Column column{"flux", "flux", {}, {}, {}, {}, {}};
+  column.value = [](const CaseResult& c, const CaseResult&) {
+    return c.generate && c.generate->flux ? std::optional(c.generate->flux->value) : std::nullopt;
+  };
+  column.interval = [](const CaseResult& c, const CaseResult&) {
+    return c.generate && c.generate->flux ? c.generate->flux->ci95 : std::nullopt;
+  };
   column.number = [](const CaseResult& c, const CaseResult&) {
     return c.generate && c.generate->flux ? fmt::format("{:.3f}", c.generate->flux->value) : std::string();
   };
@@ -76,7 +94,15 @@ std::function<std::string(const Report&, const std::string&)> noise_floor_of(con
 
 // `name` is that of a time and of its noise. With the median's 95 % interval where `interval` says so.
 Column time_column(const char* name, const char* head, bool interval = false) {
-  Column column{name, head, {}, {}, noise_floor_of(name)};
+  Column column{name, head, {}, {}, {}, {}, noise_floor_of(name)};
+  column.value = [=](const CaseResult& c, const CaseResult&) {
+    const auto time = time_of(c, name);
+    return time ? std::optional(time->median) : std::nullopt;
+  };
+  column.interval = [=](const CaseResult& c, const CaseResult&) {
+    const auto time = time_of(c, name);
+    return time ? std::optional(time->ci95) : std::nullopt;
+  };
   column.number = [=](const CaseResult& c, const CaseResult&) {
     const auto time = time_of(c, name);
     return time ? ms(time->median) : "";
@@ -98,7 +124,15 @@ std::optional<Ratio> ratio_to(const CaseResult& c, const CaseResult& first) {
 }
 
 Column ratio_column() {
-  Column column{"ratio", "x first [95 %]", {}, {}, noise_floor_of("generate")};
+  Column column{"ratio", "x first [95 %]", {}, {}, {}, {}, noise_floor_of("generate")};
+  column.value = [](const CaseResult& c, const CaseResult& first) {
+    const auto r = c.generate ? ratio_to(c, first) : std::nullopt;
+    return r ? std::optional(r->value) : std::nullopt;
+  };
+  column.interval = [](const CaseResult& c, const CaseResult& first) {
+    const auto r = c.generate ? ratio_to(c, first) : std::nullopt;
+    return r ? std::optional(r->ci95) : std::nullopt;
+  };
   column.cell = [](const CaseResult& c, const CaseResult& first) -> std::string {
     if (!c.generate) return "";
     if (c.id == first.id) return "1";
@@ -129,7 +163,7 @@ const std::vector<Column>& frame_columns() {
       flux_column(),
       time_column("generate", "generate ms"),
       time_column("method", "method ms [95 %]", true),
-      time_column("visibility", "visibility ms (host)"),
+      time_column("rays", "rays ms (host)"),
       time_column("frame", "frame ms"),
   };
   return columns;

@@ -15,6 +15,9 @@ struct Column {
   using Cell = std::function<std::string(const CaseResult& c, const CaseResult& first)>;
   Cell cell;    // with its interval
   Cell number;  // without
+  // The number itself and its interval, in the unit of the cell; nothing where the case has none.
+  std::function<std::optional<double>(const CaseResult& c, const CaseResult& first)> value;
+  std::function<std::optional<Interval>(const CaseResult& c, const CaseResult& first)> interval;
   // What is noise in this column and scene, as text; empty where that is not known.
   std::function<std::string(const Report& report, const std::string& scene)> floor;
 };

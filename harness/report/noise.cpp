@@ -16,6 +16,14 @@ const AaPair* pair_of(const Report& report, const std::string& scene) {
   return nullptr;
 }
 
+std::optional<PassStage> stage_of(const std::string& column) {
+  if (column == "fixed") return PassStage::draw;
+  if (column == "importance") return PassStage::importance;
+  if (column == "visibility") return PassStage::visibility;
+  if (column == "shade") return PassStage::shade;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string percent(double share) {
@@ -23,8 +31,9 @@ std::string percent(double share) {
 }
 
 const std::vector<std::string>& time_columns() {
-  static const std::vector<std::string> names = {"generate", "generate.gbuffer", "generate.rsm",
-                                                 "method",   "visibility",       "frame"};
+  static const std::vector<std::string> names = {
+      "fixed",      "generate", "generate.gbuffer", "generate.rsm", "importance",
+      "visibility", "shade",    "method",           "rays",         "frame"};
   return names;
 }
 
@@ -34,7 +43,8 @@ std::optional<Summary> time_of(const CaseResult& c, const std::string& column) {
   if (column == "generate.rsm") return generate_time(c.passes, Half::rsm);
   if (!c.frame) return std::nullopt;
   if (column == "method") return c.frame->method;
-  if (column == "visibility") return c.frame->host_visibility;
+  if (column == "rays") return c.frame->host_visibility;
+  if (const auto stage = stage_of(column)) return stage_time(c.passes, *stage);
   if (column == "frame") return c.frame->span;
   throw std::logic_error("no time is named " + column);
 }

@@ -8,9 +8,10 @@
 
 namespace vsglbench {
 
-// Names of times: "generate", both halves of light generation; "generate.gbuffer" and "generate.rsm", either
-// half; "method", all passes but gbuffer and rsm; "visibility", the host's shadow rays; "frame", the span of
-// all passes.
+// Names of times. The parts of a frame: "fixed", the raster of the two halves, the same for every method;
+// "generate", both halves of light generation; "importance"; "visibility", shadow maps; "shade". Of those
+// "generate.gbuffer" and "generate.rsm", either half of generation. Sums: "method", all passes but the fixed
+// ones; "frame", the span of all passes. "rays": exact visibility, on the host.
 const std::vector<std::string>& time_columns();
 
 // ms of each frame; nothing when the case has no such time.

@@ -45,9 +45,23 @@ TEST(Noise, EachTimeHasItsOwn) {
   EXPECT_NEAR(floor_of(pair, "generate.rsm"), 0.5, 1e-12);
   EXPECT_NEAR(floor_of(pair, "method"), 10.0 / 9 - 1, 1e-12);
   EXPECT_NEAR(floor_of(pair, "frame"), 30.0 / 29 - 1, 1e-12);
-  EXPECT_EQ(floor_of(pair, "visibility"), -1);  // no rays were traced
+  EXPECT_NEAR(floor_of(pair, "fixed"), 0, 1e-12);
+  EXPECT_NEAR(floor_of(pair, "shade"), 0, 1e-12);
+  EXPECT_EQ(floor_of(pair, "visibility"), -1);  // no shadow maps
+  EXPECT_EQ(floor_of(pair, "rays"), -1);        // no rays were traced
   const AaPair twisted = aa_pair(measured(1, 2, 6, 10), measured(1, 3, 6, 10));
   EXPECT_NEAR(floor_of(twisted, "generate.rsm"), 0.5, 1e-12);  // whichever is slower
+}
+
+// Sums of parts are those of the whole.
+TEST(Noise, AFrameIsTheSumOfItsParts) {
+  const CaseResult c = measured(1, 2, 6, 10);
+  double sum = 0;
+  for (const char* part : {"fixed", "generate", "shade"}) sum += time_of(c, part)->median;
+  EXPECT_NEAR(sum, time_of(c, "frame")->median, 1e-12);
+  EXPECT_NEAR(time_of(c, "fixed")->median, 20, 1e-12);
+  EXPECT_NEAR(time_of(c, "shade")->median, 6, 1e-12);
+  EXPECT_FALSE(time_of(c, "importance"));
 }
 
 TEST(Noise, ATimeThatTheClockDidNotSeeIsLeftOut) {
@@ -58,8 +72,10 @@ TEST(Noise, ATimeThatTheClockDidNotSeeIsLeftOut) {
 
 TEST(Noise, EveryNamedTimeIsKnown) {
   const CaseResult c = synthetic_case("cornell/mfis");
-  for (const auto& column : time_columns()) EXPECT_TRUE(time_of(c, column)) << column;
-  EXPECT_THROW(time_of(c, "shade"), std::logic_error);
+  // It has neither shadow maps nor importance passes.
+  for (const auto& column : time_columns())
+    EXPECT_EQ(time_of(c, column).has_value(), column != "visibility" && column != "importance") << column;
+  EXPECT_THROW(time_of(c, "shading"), std::logic_error);
 }
 
 TEST(Noise, TheNoisiestTimeOfAllScenesIsNamed) {

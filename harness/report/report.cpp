@@ -65,6 +65,10 @@ std::optional<Summary> method_time(const std::vector<PassTiming>& passes) {
   return sum_of(passes, [](const PassId& pass) { return pass.stage != PassStage::draw; });
 }
 
+std::optional<Summary> stage_time(const std::vector<PassTiming>& passes, PassStage stage) {
+  return sum_of(passes, [&](const PassId& pass) { return pass.stage == stage; });
+}
+
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes) {
   std::vector<double> sum(span_ms.size(), 0), rest = span_ms;
   for (const PassTiming& pass : passes) {

@@ -40,14 +40,25 @@ struct HostInfo {
   std::optional<double> load_at_start, load_at_end;  // mean number of runnable processes over a minute
 };
 
+// What a GPU's clocks did while a scene's frames were timed (gpu/clock_watch.h).
+struct ClockReport {
+  uint64_t readings = 0;
+  uint32_t least_sm_mhz = 0, most_sm_mhz = 0, least_memory_mhz = 0, most_memory_mhz = 0;
+  uint32_t most_celsius = 0;
+  double most_watts = 0;
+  std::vector<std::string> power_states;  // "P0", "P2", …, each once
+  std::vector<std::string> throttled_by;  // reasons that held a clock down, each once
+};
+
 struct SceneReport {
   std::string name, hash;
   uint64_t triangles = 0;
   std::vector<std::string> warnings;
-  glm::dvec3 light_flux{0};        // W inside the light's frustum
-  double exposure = 1;             // of the scene's previews
-  std::string contact;             // relative path of the contact sheet; empty: none
-  std::vector<std::string> notes;  // accuracy_notes() of its cases
+  glm::dvec3 light_flux{0};           // W inside the light's frustum
+  double exposure = 1;                // of the scene's previews
+  std::string contact;                // relative path of the contact sheet; empty: none
+  std::vector<std::string> notes;     // accuracy_notes() of its cases
+  std::optional<ClockReport> clocks;  // absent where no library tells
 };
 
 struct TimeNoise {
@@ -254,6 +265,9 @@ struct Report {
   std::vector<SceneReport> scenes;
   std::vector<AaPair> aa;  // one a scene
   std::vector<CaseResult> cases;
+  // What the cases show together: fronts, prices, budgets. Made by answer/analysis.h; null: not made, as in
+  // reports of old.
+  Json analysis;
 };
 
 HealthReport health_report(const Health& health, const std::string& first_bad_pass = "");
@@ -272,6 +286,9 @@ std::optional<Summary> generate_time(const std::vector<PassTiming>& passes,
 // for every method, and a GPU may raster on a few of its units only. Nothing without such a pass; throws as
 // above.
 std::optional<Summary> method_time(const std::vector<PassTiming>& passes);
+
+// Frame by frame, the sum of a stage's passes. Nothing without such a pass; throws as above.
+std::optional<Summary> stage_time(const std::vector<PassTiming>& passes, PassStage stage);
 
 // Span, Σ passes, the unattributed rest and the method's time from the raw per-frame spans.
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes);
@@ -299,5 +316,6 @@ void write_report(const std::filesystem::path& path, const Report& report);
 Report read_report(const std::filesystem::path& path);
 // The same of a report's folder, or of its file.
 Report read_report_at(const std::filesystem::path& file_or_folder);
+std::filesystem::path report_file(const std::filesystem::path& file_or_folder);  // which of both
 
 }  // namespace vsglbench

@@ -77,10 +77,11 @@ Report read_report(const fs::path& path) {
   return report_from_json(doc.root());
 }
 
-Report read_report_at(const std::filesystem::path& file_or_folder) {
+fs::path report_file(const fs::path& file_or_folder) {
   std::error_code ec;
-  const bool folder = std::filesystem::is_directory(file_or_folder, ec);
-  return read_report(folder ? file_or_folder / "report.json" : file_or_folder);
+  return fs::is_directory(file_or_folder, ec) ? file_or_folder / "report.json" : file_or_folder;
 }
+
+Report read_report_at(const fs::path& file_or_folder) { return read_report(report_file(file_or_folder)); }
 
 }  // namespace vsglbench

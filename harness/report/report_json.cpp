@@ -28,6 +28,18 @@ void fields(auto& a, Is<HostInfo> auto& v) {
   a("load_at_end", v.load_at_end);
 }
 
+void fields(auto& a, Is<ClockReport> auto& v) {
+  a("readings", v.readings);
+  a("least_sm_mhz", v.least_sm_mhz);
+  a("most_sm_mhz", v.most_sm_mhz);
+  a("least_memory_mhz", v.least_memory_mhz);
+  a("most_memory_mhz", v.most_memory_mhz);
+  a("most_celsius", v.most_celsius);
+  a("most_watts", v.most_watts);
+  a("power_states", v.power_states);
+  a("throttled_by", v.throttled_by);
+}
+
 void fields(auto& a, Is<SceneReport> auto& v) {
   a("name", v.name);
   a("hash", v.hash);
@@ -37,6 +49,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a("exposure", v.exposure);
   a.unless_empty("contact", v.contact);
   a.unless_empty("notes", v.notes);
+  a("clocks", v.clocks);
 }
 
 void fields(auto& a, Is<TimeNoise> auto& v) {
@@ -177,6 +190,7 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("smape_lit", v.errors.smape_lit);
   a("flip", v.errors.flip);
   a("flip_p99", v.errors.flip_p99);
+  a("p99_9", v.errors.p99_9);
   a("flux", v.flux);
 }
 
@@ -261,6 +275,7 @@ void fields(auto& a, Is<Report> auto& v) {
   a("scenes", v.scenes);
   a.unless_empty("aa", v.aa);
   a("cases", v.cases);
+  a.unless_empty("analysis", v.analysis);
 }
 
 Json to_json(const Report& report) {
@@ -281,7 +296,6 @@ void restore(CaseResult& c) {
 
 // Reports of old have one pair for all scenes, an object, and of its times the frame's alone.
 Json with_pairs(Json json) {
-  if (!json.contains("aa") || json["aa"].is_array()) return json;
   Json time = json["aa"], pair = {{"scene", ""}, {"case", time["case"]}, {"twin", time["twin"]}};
   for (const Json& c : json["cases"]) {
     if (c["id"] == pair["case"]) pair["scene"] = c["scene"];
@@ -292,14 +306,28 @@ Json with_pairs(Json json) {
   return json;
 }
 
+// Until the parts of a frame had names, "visibility" was that of the host's rays.
+void name_rays(Report* report) {
+  for (AaPair& pair : report->aa) {
+    const auto is_part = [](const TimeNoise& time) {
+      return time.column == "fixed" || time.column == "shade";
+    };
+    if (std::ranges::any_of(pair.times, is_part)) continue;
+    for (TimeNoise& time : pair.times)
+      if (time.column == "visibility") time.column = "rays";
+  }
+}
+
 }  // namespace
 
 Report report_from_json(const Json& json) {
   Report report;
-  const Json current = with_pairs(json);
-  JsonReader reader(current);
+  const bool of_old = json.contains("aa") && !json["aa"].is_array();
+  const Json renewed = of_old ? with_pairs(json) : Json();
+  JsonReader reader(of_old ? renewed : json);
   fields(reader, report);
   for (CaseResult& c : report.cases) restore(c);
+  name_rays(&report);
   return report;
 }
 

@@ -68,8 +68,12 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     json.at(Json::json_pointer(pointer.substr(0, slash))).erase(pointer.substr(slash + 1));
     if (violations(json).empty()) optional.push_back(pointer);
   }
-  std::vector<std::string> expected = {"/scenes/0/contact", "/scenes/0/notes", "/aa",
-                                       "/environment/host/load_at_start", "/environment/host/load_at_end"};
+  std::vector<std::string> expected = {"/scenes/0/contact",
+                                       "/scenes/0/notes",
+                                       "/scenes/0/clocks",
+                                       "/aa",
+                                       "/environment/host/load_at_start",
+                                       "/environment/host/load_at_end"};
   for (const char* key : {"effects",
                           "frame/method",
                           "frame/host_visibility",
@@ -103,7 +107,7 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
-    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "flux"})
+    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux"})
       expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
   }
   for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {
@@ -203,8 +207,9 @@ TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
                                                  {"/scenes/0/triangles", 1.5},
                                                  {"/scenes/0/light_flux", {1, 2}},
                                                  {"/scenes/0/contact", "/absolute.png"},
+                                                 {"/scenes/0/clocks/readings", -1},
                                                  {"/aa/0/times/0/ratio", 0},
-                                                 {"/aa/0/times/0/column", "shade"},
+                                                 {"/aa/0/times/0/column", "shading"},
                                                  {"/environment/host/load_at_start", -1},
                                                  {"/cases/0/id", ""},
                                                  {"/cases/0/passes/0/name", "Gen erate"},

@@ -36,10 +36,10 @@ inline CaseResult synthetic_case(const std::string& id) {
   c.generate = g;
   for (uint64_t seed = 0; seed < 8; ++seed) {
     const double d = static_cast<double>(seed) - 3.5;
-    c.seeds.push_back(
-        {seed,
-         {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75, 0.2 + 0.01 * d, 0.5},
-         0.9});
+    c.seeds.push_back({seed,
+                       {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75,
+                        0.2 + 0.01 * d, 0.5, 2.5},
+                       0.9});
   }
   ReferenceInfo reference{"0123abcd", 1024, 0.5,   0.001, 0.4,   0.01,   0.002,
                           0.03,       0.25, 0.125, 16,    0.002, "floor"};
@@ -97,6 +97,7 @@ inline Report synthetic_report() {
   r.wall = {60, 40, 5, 6, 4, 1.125};
   r.scenes = {
       {"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png", {"a note"}}};
+  r.scenes[0].clocks = ClockReport{3, 1800, 1980, 3201, 3201, 62, 512.5, {"P0"}, {}};
   r.aa = {
       {"cornell",
        "cornell/mfis",

@@ -1,6 +1,7 @@
 #include "report/table.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/printable.h"
 #include "report/table_layout.h"
@@ -8,13 +9,25 @@
 namespace vsglbench {
 namespace {
 
-// Columns on a terminal: one for each sign of UTF-8 text.
-size_t display_width(const std::string& text) {
-  return static_cast<size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string padding(size_t width, const std::string& text) {
   return std::string(width - std::min(width, display_width(text)), ' ');
+}
+
+// Broken at spaces where it is wider; 0: not.
+std::string wrapped(const std::string& text, size_t width) {
+  if (width == 0) return text + '\n';
+  std::string out, line, word;
+  std::istringstream words(text);
+  while (words >> word) {
+    if (!line.empty() && display_width(line) + 1 + display_width(word) > width) {
+      out += line + '\n';
+      line = "  ";
+      line += word;
+    } else {
+      line += (line.empty() ? "" : " ") + word;
+    }
+  }
+  return out + line + '\n';
 }
 
 // A scene's name stands once, above its rows.
@@ -39,7 +52,8 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 std::string terminal_table(const Report& report, const TableOptions& options) {
-  const TableLayout table = table_of(report, options);
+  TableLayout table = table_of(report, options);
+  if (options.width > 0) fit_to_width(options.width, !options.columns.empty(), &table);
   std::vector<TableCells> rows = {table.heads};
   std::vector<std::string> messages = {""};
   for (const TableLine& line : with_scene_lines(table.lines)) {
@@ -60,7 +74,7 @@ std::string terminal_table(const Report& report, const TableOptions& options) {
     for (size_t i = 1; i < row.size(); ++i) line += "  " + padding(widths[i], row[i]) + row[i];
     out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
-  for (const auto& note : table.notes) out += printable(note) + '\n';
+  for (const auto& note : table.notes) out += wrapped(printable(note), options.width);
   return out;
 }
 

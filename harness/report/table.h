@@ -14,6 +14,13 @@ struct TableOptions {
   // "method", "scene" or a key of the ids, such as "N": its values stand across, and a cell holds the numbers
   // of the columns, joined by " / ". Empty: one row a case.
   std::string across;
+  // A column's name: within each scene the rows with the least first, with '-' before it the largest; those
+  // without a number last. Empty: the report's order. Not with `across`.
+  std::string sort;
+  // Of a terminal table, in signs; 0: none. What does not differ from row to row is then said below, columns
+  // are left out from the least important on until the rest fits, which is said, too, and then names are
+  // shortened.
+  size_t width = 0;
   std::string link;  // to the report, in Markdown, for a last note with its date and commit; empty: none
 };
 
@@ -24,5 +31,10 @@ struct TableOptions {
 std::string terminal_table(const Report& report,
                            const TableOptions& options = {});  // aligned, ends in a newline
 std::string markdown_table(const Report& report, const TableOptions& options = {});
+// A row a case with its scene, id and status, and of every column the number and the ends of its interval, as
+// many digits as they have; with `across`, the cells as they are.
+std::string csv_table(const Report& report, const TableOptions& options = {});
+// A tabular of the package booktabs; what is said below are comments.
+std::string latex_table(const Report& report, const TableOptions& options = {});
 
 }  // namespace vsglbench

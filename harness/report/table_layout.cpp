@@ -1,7 +1,9 @@
 #include "report/table_layout.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "base/nearest.h"
 #include "report/case_names.h"
@@ -10,8 +12,6 @@
 
 namespace vsglbench {
 namespace {
-
-constexpr const char* kFloor = "noise floor";
 
 // --- what is shown ---
 
@@ -29,14 +29,6 @@ std::vector<const CaseResult*> chosen_cases(const Report& report, const std::vec
 bool only_generation(const Report& report) {
   return std::ranges::any_of(report.cases,
                              [](const CaseResult& c) { return c.measure == Measure::generation; });
-}
-
-// A scene's first sound case, which others are compared with.
-const CaseResult& first_of_scene(const Report& report, const CaseResult& c) {
-  const auto sound = [&](const CaseResult& other) {
-    return other.scene == c.scene && other.status == Status::ok;
-  };
-  return *std::ranges::find_if(report.cases, sound);
 }
 
 std::vector<Column> named_columns(const std::vector<Column>& all, const std::vector<std::string>& names) {
@@ -67,6 +59,27 @@ std::vector<Column> chosen_columns(const Report& report, const std::vector<const
   return full.empty() ? all : full;  // an error's message needs a place
 }
 
+// Scenes keep their order, and rows within them where numbers are equal.
+void sort_cases(const Report& report, const TableOptions& options, std::vector<const CaseResult*>* cases) {
+  if (!options.across.empty())
+    throw fail(ErrorKind::usage, "a table across '{}' can't be sorted", options.across);
+  const bool falling = options.sort.starts_with('-');
+  const std::vector<Column> by =
+      named_columns(only_generation(report) ? generation_columns() : frame_columns(),
+                    {options.sort.substr(falling ? 1 : 0)});
+  using Key = std::tuple<size_t, bool, double>;  // scene, whether without a number, the number
+  std::vector<std::pair<Key, const CaseResult*>> keyed;
+  std::map<std::string, size_t> scenes;
+  for (const CaseResult* c : *cases) {
+    const size_t scene = scenes.try_emplace(c->scene, scenes.size()).first->second;
+    const auto value =
+        c->status == Status::ok ? by.front().value(*c, first_of_scene(report, *c)) : std::nullopt;
+    keyed.push_back({{scene, !value, falling ? -value.value_or(0) : value.value_or(0)}, c});
+  }
+  std::ranges::stable_sort(keyed, {}, [](const auto& k) { return k.first; });
+  for (size_t i = 0; i < keyed.size(); ++i) (*cases)[i] = keyed[i].second;
+}
+
 // --- the two shapes ---
 
 // A reason that many cases share, such as a scene whose asset is absent, is told once.
@@ -83,15 +96,18 @@ void add_unless_empty(const TableLine& line, TableLayout* table) {
 
 void add_floor(const Report& report, const std::string& scene, const std::vector<Column>& columns,
                TableLayout* table) {
-  TableLine line{scene, kFloor, {}, ""};
+  TableLine line{scene, kFloorRow, {}, ""};
   for (const Column& column : columns) line.cells.push_back(column.floor(report, scene));
   add_unless_empty(line, table);
 }
 
 TableLayout one_row_a_case(const Report& report, const std::vector<const CaseResult*>& cases,
                            const std::vector<Column>& columns) {
-  TableLayout table{{"case"}, {}, {}};
-  for (const Column& column : columns) table.heads.push_back(column.head);
+  TableLayout table{{"case"}, {}, {}, {}};
+  for (const Column& column : columns) {
+    table.heads.push_back(column.head);
+    table.columns.push_back(column.name);
+  }
   const CaseNames names(cases);
   std::set<std::string> told;
   for (size_t i = 0; i < cases.size(); ++i) {
@@ -150,9 +166,9 @@ TableLayout across(const Report& report, const std::vector<const CaseResult*>& c
   const bool floor_column = !scenes_across && std::ranges::any_of(cases, [&](const CaseResult* c) {
     return !floor(c->scene).empty();
   });
-  TableLayout table{{"case"}, {}, {note_on_cells(columns)}};
+  TableLayout table{{"case"}, {}, {note_on_cells(columns)}, {}};
   table.heads.insert(table.heads.end(), heads.values.begin(), heads.values.end());
-  if (floor_column) table.heads.push_back(kFloor);
+  if (floor_column) table.heads.push_back(kFloorRow);
   for (const CaseResult* c : cases) {
     const std::string scene = scenes_across ? "" : c->scene, label = names.label_without(*c, part);
     const size_t row = rows.of(scene + "/" + label);
@@ -165,7 +181,7 @@ TableLayout across(const Report& report, const std::vector<const CaseResult*>& c
         c->status == Status::ok ? joined(columns, number) : std::string(name(c->status));
   }
   if (!scenes_across) return table;
-  TableLine line{"", kFloor, {}, ""};
+  TableLine line{"", kFloorRow, {}, ""};
   for (const auto& scene : heads.values) line.cells.push_back(floor(scene));
   add_unless_empty(line, &table);
   return table;
@@ -173,9 +189,22 @@ TableLayout across(const Report& report, const std::vector<const CaseResult*>& c
 
 }  // namespace
 
+const CaseResult& first_of_scene(const Report& report, const CaseResult& c) {
+  const auto sound = [&](const CaseResult& other) {
+    return other.scene == c.scene && other.status == Status::ok;
+  };
+  return *std::ranges::find_if(report.cases, sound);
+}
+
+TableContents contents_of(const Report& report, const TableOptions& options) {
+  TableContents out{chosen_cases(report, options.only), {}};
+  out.columns = chosen_columns(report, out.cases, options.columns);
+  if (!options.sort.empty()) sort_cases(report, options, &out.cases);
+  return out;
+}
+
 TableLayout table_of(const Report& report, const TableOptions& options) {
-  const auto cases = chosen_cases(report, options.only);
-  const auto columns = chosen_columns(report, cases, options.columns);
+  const auto [cases, columns] = contents_of(report, options);
   TableLayout table = options.across.empty() ? one_row_a_case(report, cases, columns)
                                              : across(report, cases, columns, options.across);
   const auto more = table_notes(report, CaseNames(cases).shared(), options.link);

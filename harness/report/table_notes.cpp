@@ -51,6 +51,10 @@ std::vector<std::string> table_notes(const Report& report, const std::string& sh
   }
   for (const SceneReport& scene : report.scenes) {
     for (const auto& note : scene.notes) out.push_back(scene.name + ": " + note);
+    if (scene.clocks && !scene.clocks->throttled_by.empty())
+      out.push_back(fmt::format("{}: the GPU's clocks were held down ({}), {} to {} MHz", scene.name,
+                                fmt::join(scene.clocks->throttled_by, ", "), scene.clocks->least_sm_mhz,
+                                scene.clocks->most_sm_mhz));
   }
   if (!report.complete) out.push_back("incomplete: the run was stopped before its last case");
   if (!link.empty()) out.push_back(source_note(report, link));

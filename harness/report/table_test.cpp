@@ -61,7 +61,7 @@ TEST(Table, OneRowACaseAndAligned) {
   r.cases.push_back(synthetic_case("a much longer name of a case"));
   const std::string table = terminal_table(r);
   const std::string head = line_of(table, "case"), row = line_of(table, "mfis");
-  expect_parts(head, {"generate ms", "method ms [95 %]", "visibility ms (host)"});
+  expect_parts(head, {"generate ms", "method ms [95 %]", "rays ms (host)"});
   expect_parts(row, {" 12.00 ± ", " -1.00 ± ",  // bias in percent
                      " 4.50 ",                  // generate: 0.5 + 1 + 3
                      " 24.50 [18.38, 30.62] ",  // and shade's 20; not gbuffer's 2
@@ -128,11 +128,20 @@ TEST(Table, NoiseStandsUnderEachColumnOfEachScene) {
   expect_parts(split(terminal_table(r))[7], {"noise floor", " 3 … 12 "});
 }
 
+TEST(Table, ClocksThatWereHeldDownAreTold) {
+  Report r = synthetic_report();
+  EXPECT_EQ(terminal_table(r).find("held down"), std::string::npos);
+  r.scenes[0].clocks->throttled_by = {"power cap", "hot (driver)"};
+  EXPECT_NE(terminal_table(r).find(
+                "cornell: the GPU's clocks were held down (power cap, hot (driver)), 1800 to 1980 MHz"),
+            std::string::npos);
+}
+
 TEST(Table, AColumnThatNoCaseHasIsLeftOut) {
   Report r = synthetic_report();
-  EXPECT_NE(terminal_table(r).find("visibility"), std::string::npos);
+  EXPECT_NE(terminal_table(r).find("rays ms"), std::string::npos);
   r.cases[0].frame->host_visibility.reset();
-  EXPECT_EQ(terminal_table(r).find("visibility"), std::string::npos);
+  EXPECT_EQ(terminal_table(r).find("rays ms"), std::string::npos);
 }
 
 TEST(Table, GenerationAloneIsComparedWithTheScenesFirst) {

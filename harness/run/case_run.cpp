@@ -11,9 +11,6 @@
 namespace vsglbench {
 namespace {
 
-// Pixels times exposures that take FLIP about a tenth of a second: at 480×272, four exposures.
-constexpr uint64_t kFlipPixelsOfEverySeed = 600'000;
-
 void state_exposures(const FlipExposures& exposures, MetricResult* flip) {
   flip->constants["start_exposure"] = exposures.start;
   flip->constants["stop_exposure"] = exposures.stop;
@@ -35,13 +32,22 @@ std::string one_line(std::string text) {
   return text;
 }
 
-CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce)
+CaseRun::CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce,
+                 CaseProgress progress)
     : case_(description), config_(config), wall_(wall), announce_(std::move(announce)) {
+  scored_ = progress.scored.has_value();
+  if (scored_) result_ = std::move(progress.scored->result);
+  if (scored_) rays_ms_ = std::move(progress.scored->rays_ms);
   result_.id = case_.id;
   result_.scene = case_.scene;
   result_.method = case_.method;
   result_.measure = config_.measure;
   result_.parameters = case_.parameters;
+  const auto failed = [this](ErrorKind kind, const std::string& message) { fail_with(kind, message); };
+  const auto take = [&] {
+    for (const FrameTimes& frame : progress.frames) record(frame, 1e-3 * frame.span_ms);
+  };
+  guarded(take, failed);
 }
 
 void CaseRun::fail_with(ErrorKind kind, const std::string& message) {
@@ -70,7 +76,7 @@ void CaseRun::conclude() {
   concluded_ = true;
   first_image_.reset();
   cancellation_.reset();
-  mask_ = {};
+  scoring_.reset();
   if (!frame_) return;
   action_ = "closing";
   announce(true);
@@ -87,15 +93,15 @@ void CaseRun::open(Stage& stage, CaseInput input) {
   wall_->compilation_s += watch.seconds();
 }
 
-// A method that does not draw its lights gives the same image for every seed.
+// A method that does not draw its lights gives the same image for every seed. Generation is looked at once.
 uint32_t CaseRun::seeds() const {
-  if (config_.measure == Measure::generation) return 0;
+  if (config_.measure == Measure::generation) return 1;
   return find_method(case_.method).takes_light_count ? config_.seeds : 1;
 }
 
 uint64_t CaseRun::frames_left() const {
   if (finished()) return 0;
-  const uint64_t wanted = std::max<uint64_t>(config_.timing.min_samples, seeds());
+  const uint64_t wanted = config_.timing.min_samples;
   return wanted > span_ms_.size() ? wanted - span_ms_.size() : 1;
 }
 
@@ -119,9 +125,49 @@ FrameTimes CaseRun::render(uint32_t seed, bool watched) {
   return times;
 }
 
+// Seed 0 is the last, so that the frames that are timed find its shadow rays already traced.
+void CaseRun::look() {
+  if (scored_) return;
+  for (uint32_t seed = seeds(); seed-- > 0;) attempt(fmt::format("seed {}", seed), [&] { look_at(seed); });
+}
+
+void CaseRun::look_at(uint32_t seed) {
+  render(seed, true);
+  const bool has_image = config_.measure == Measure::frame;
+  if (has_image && !scoring_) scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask());
+  Image image;
+  if (has_image) image = frame_->results().indirect();
+  if (has_image) check_health_of(image);
+  if (!has_image) result_.health.emplace();
+  check_lights();
+  const double flux = check_flux();
+  if (has_image) result_.seeds.push_back({seed, {}, *texel_power_ > 0 ? std::optional(flux) : std::nullopt});
+  if (seed == 0) describe_lights();
+  if (seed == 0 && has_image) describe_shading();
+  if (seed == 0 && has_image) first_image_ = image;
+  if (has_image) scoring_->add(seed, std::move(image));
+}
+
+void CaseRun::settle() {
+  if (scored_ || failed()) return;
+  const auto failed = [this](ErrorKind kind, const std::string& message) { fail_with(kind, message); };
+  const auto take = [this] {
+    if (!flux_.empty()) result_.generate->flux = flux_over_seeds(flux_);
+    if (!scoring_) return;
+    std::ranges::sort(result_.seeds, {}, &SeedResult::seed);
+    const std::vector<SeedScore> scores = scoring_->collect();
+    for (size_t i = 0; i < scores.size(); ++i) result_.seeds[i].errors = scores[i].errors;
+    result_.accuracy = accuracy_over_seeds(result_.seeds, *input_.reference_info);
+    if (scoring_->flip_exposures()) state_exposures(*scoring_->flip_exposures(), &result_.accuracy->flip);
+    result_.accuracy->quantiles = scores.front().quantiles;
+  };
+  guarded(take, failed);
+  scored_ = !this->failed();
+}
+
 void CaseRun::warm_up() {
   attempt("warm-up", [&] {
-    render(0, true);
+    render(0);
     ++warmups_;
   });
 }
@@ -129,57 +175,15 @@ void CaseRun::warm_up() {
 void CaseRun::step() {
   attempt(fmt::format("frame {}", span_ms_.size() + 1), [&] {
     const Stopwatch watch;
-    const bool scored = seeds_.size() < seeds();
-    const uint32_t seed = scored ? static_cast<uint32_t>(seeds_.size()) : 0;
-    const bool only_lights = config_.measure == Measure::generation && span_ms_.empty();
-    record(render(seed, scored || only_lights));
-    if (scored) score(seed);
-    if (only_lights) {
-      result_.health.emplace();
-      check_lights();
-      check_flux();
-      describe_lights();
-    }
-    elapsed_s_ += watch.seconds();
-    if (seeds_.size() < seeds()) return;
-    reason_ = should_stop(config_.timing, span_ms_, elapsed_s_);
-    finished_ = reason_.has_value();
+    last_ = render(0);
+    record(last_, watch.seconds());
   });
 }
 
-void CaseRun::score(uint32_t seed) {
-  const Image image = frame_->results().indirect();
-  if (mask_.empty()) make_mask();
-  check_health_of(image);
-  check_lights();
-  const double flux = check_flux();
-  if (seed == 0) describe_lights();
-  if (seed == 0) describe_shading();
-  Errors errors = measure_errors(image, input_.reference->mean, mask_);
-  measure_look(image, seed, &errors);
-  if (seed == 0) {
-    quantiles_ = error_quantiles(image, input_.reference->mean, mask_);
-    first_image_ = image;
-  }
-  seeds_.push_back({seed, errors, *texel_power_ > 0 ? std::optional(flux) : std::nullopt});
-}
-
-// FLIP looks at the image once an exposure: where that takes long it is measured for the first seed alone.
-void CaseRun::measure_look(const Image& image, uint32_t seed, Errors* errors) {
-  if (seed == 0) flip_exposures_ = flip_exposures(input_.reference->mean, mask_);
-  if (!flip_exposures_) return;
-  const bool every_seed = image.pixels.size() * flip_exposures_->count <= kFlipPixelsOfEverySeed;
-  if (seed > 0 && !every_seed) return;
-  if (seed == 0) flip_ = std::make_unique<FlipReference>(input_.reference->mean, mask_, *flip_exposures_);
-  const FlipErrors flip = flip_->compare(image);
-  errors->flip = flip.mean;
-  errors->flip_p99 = flip.p99;
-  if (!every_seed || seed + 1 == seeds()) flip_.reset();
-}
-
-void CaseRun::make_mask() {
-  mask_ = frame_->results().surface_mask();
-  for (size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_[i] && input_.reference->mask[i];
+Mask CaseRun::make_mask() const {
+  Mask mask = frame_->results().surface_mask();
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] && input_.reference->mask[i];
+  return mask;
 }
 
 // One NaN or Inf fails the case and names the pass that first held one; it is never averaged away.
@@ -254,7 +258,7 @@ void CaseRun::check_passes() {
   throw Error(ErrorKind::not_finite, bad->message());
 }
 
-void CaseRun::record(const FrameTimes& times) {
+void CaseRun::record(const FrameTimes& times, double elapsed_s) {
   if (passes_.empty()) {
     for (const PassTime& time : times.passes) passes_.push_back(time.pass);
     pass_ms_.resize(passes_.size());
@@ -266,10 +270,13 @@ void CaseRun::record(const FrameTimes& times) {
   span_ms_.push_back(times.span_ms);
   if (!result_.generate) result_.generate.emplace();
   result_.generate->dispatches = times.generate_dispatches;
+  elapsed_s_ += elapsed_s;
+  reason_ = should_stop(config_.timing, span_ms_, elapsed_s_);
+  finished_ = reason_.has_value();
 }
 
 void CaseRun::describe_lights() {
-  GenerateResult& generate = *result_.generate;
+  GenerateResult& generate = result_.generate.emplace();
   generate.lights = frame_->light_count();
   generate.empty = count_without_power(frame_->results().lights());
   generate.shaders = frame_->method_kernels();
@@ -296,6 +303,7 @@ void CaseRun::describe_shading() {
 CaseResult CaseRun::result() const {
   CaseResult r = result_;
   for (size_t i = 0; i < passes_.size(); ++i) r.passes.push_back({passes_[i], summarize(pass_ms_[i])});
+  if (span_ms_.empty()) r.generate.reset();
   if (!span_ms_.empty()) {
     r.frame = frame_timing(span_ms_, r.passes);
     if (!rays_ms_.empty()) r.frame->host_visibility = summarize(rays_ms_);
@@ -305,13 +313,6 @@ CaseResult CaseRun::result() const {
     r.generate->gbuffer_ms = gbuffer ? gbuffer->median : 0;
     r.generate->rsm_ms = rsm ? rsm->median : 0;
   }
-  if (!seeds_.empty()) {
-    r.accuracy = accuracy_over_seeds(seeds_, *input_.reference_info);
-    if (flip_exposures_) state_exposures(*flip_exposures_, &r.accuracy->flip);
-    r.accuracy->quantiles = quantiles_;
-    r.seeds = seeds_;
-  }
-  if (r.generate && !flux_.empty()) r.generate->flux = flux_over_seeds(flux_);
   if (reason_) r.stopping = Stopping{*reason_, span_ms_.size(), warmups_};
   return r;
 }

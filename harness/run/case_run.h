@@ -1,4 +1,5 @@
-// One case while it is measured: its frames, samples and errors so far.
+// One case while it is measured: its frames, samples and errors so far. First it is looked at: every seed is
+// rendered and compared with the reference. Then it is timed, and nothing else is done between its frames.
 #pragma once
 
 #include <memory>
@@ -7,12 +8,13 @@
 #include <vector>
 
 #include "frame/frame.h"
-#include "image/flip.h"
 #include "image/metrics.h"
 #include "reference/reference.h"
 #include "report/report.h"
 #include "run/activity.h"
+#include "run/case_progress.h"
 #include "run/config.h"
+#include "run/scoring.h"
 
 namespace vsglbench {
 
@@ -27,17 +29,28 @@ struct CaseInput {
 class CaseRun {
  public:
   // A case without a frame yet. `config` and `wall` outlive it; times are added to `wall`. `announce` is
-  // called at the start of every action that runs the method's code.
-  CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce = {});
+  // called at the start of every action that runs the method's code. `progress`: what another process has
+  // done of it, which is not done again.
+  CaseRun(const Case& description, const Config& config, WallTime* wall, Announce announce = {},
+          CaseProgress progress = {});
 
   // Compiles its kernels and takes its memory. Like warm_up() and step() it throws Error(device_lost) only,
   // for a device that is lost to all: whatever else goes wrong fails the case, and only this one.
   void open(Stage& stage, CaseInput input);
-  // One untimed frame.
+  // Renders the seeds, the last one first, and checks what can be checked of each on the device; their errors
+  // are measured meanwhile. Generation alone renders no image: its lights of seed 0 are looked at.
+  void look();
+  // Waits for the errors.
+  void settle();
+  bool scored() const { return scored_; }  // looked at and settled, by this process or by another
+  // Everything but times, once it is settled; the images are the caller's to add.
+  ScoredCase score() const { return {result_, rays_ms_}; }
+  void add_images(const std::map<std::string, std::string>& images) { result_.images = images; }
+  // One untimed frame of seed 0.
   void warm_up();
-  // The next frame of the measurement: the seeds first, then seed 0 until the stopping rule is met.
-  // Generation alone is measured with seed 0.
+  // The next timed frame, of seed 0, until the stopping rule is met.
   void step();
+  const FrameTimes& last_frame() const { return last_; }  // timed
   // Destroys the method, its frame and the images; the numbers stay.
   void conclude();
   bool concluded() const { return concluded_; }
@@ -59,29 +72,27 @@ class CaseRun {
   // Everything measured so far, as the report holds it.
   CaseResult result() const;
   const Case& description() const { return case_; }
-  const std::optional<Image>& image() const { return first_image_; }          // of seed 0
+  const std::optional<Image>& image() const { return first_image_; }  // of seed 0, once it is looked at
   const std::optional<Image>& cancellation() const { return cancellation_; }  // ShadingNotes, of seed 0
   const ReferenceResult* reference() const { return input_.reference; }
-  const Mask& mask() const {
-    return mask_;
-  }                                        // pixels with a surface for the rasteriser and the reference alike
+  // Pixels with a surface for the rasteriser and the reference alike.
+  const Mask& mask() const { return scoring_->mask(); }
   Frame* frame() { return frame_.get(); }  // null before open() and after a failure
 
  private:
   template <class Action>
   void attempt(const std::string& name, const Action& action);
   void announce(bool limited) const;
-  uint32_t seeds() const;  // to be scored
+  uint32_t seeds() const;  // to be looked at
   FrameTimes render(uint32_t seed, bool watched = false);
-  void score(uint32_t seed);
-  void make_mask();
-  void measure_look(const Image& image, uint32_t seed, Errors* errors);
+  void look_at(uint32_t seed);
+  Mask make_mask() const;
   void check_health_of(const Image& image);
   void check_memory();
   void check_lights();
   double check_flux();
   void check_passes();
-  void record(const FrameTimes& times);
+  void record(const FrameTimes& times, double elapsed_s);
   void describe_lights();
   void describe_shading();
 
@@ -97,18 +108,15 @@ class CaseRun {
   std::vector<std::vector<double>> pass_ms_;  // of each pass, one a frame
   std::vector<double> span_ms_;
   std::vector<double> rays_ms_;  // of exact visibility on the host, in each frame that traced any
-  std::vector<SeedResult> seeds_;
-  std::vector<double> flux_;  // of each light set looked at
+  FrameTimes last_;
+  std::vector<double> flux_;  // of each light set looked at, the last seed's first
   std::optional<double> texel_power_;
-  std::optional<ErrorQuantiles> quantiles_;
-  std::optional<FlipExposures> flip_exposures_;  // chosen with the first seed
-  std::unique_ptr<FlipReference> flip_;          // for further seeds
+  std::unique_ptr<Scoring> scoring_;  // null before the first image
   std::optional<Image> first_image_, cancellation_;
-  Mask mask_;
   std::optional<StopReason> reason_;
   uint64_t warmups_ = 0;
   double elapsed_s_ = 0;
-  bool rendered_ = false, finished_ = false, concluded_ = false;
+  bool rendered_ = false, scored_ = false, finished_ = false, concluded_ = false;
 };
 
 // Calls `action`; hands whatever it throws to `failed(kind, message)`, the message on one line. Only

@@ -196,7 +196,7 @@ TEST_F(PluginFault, AWorkerKilledBeforeItBeganIsStartedOnceMore) {
     SceneOutcome outcome;
     WorkerLog log;
     run_scene_in_workers(
-        "cornell", config, config.cases, false, options, [] {}, &outcome, &log);
+        "cornell", config, config.cases, false, options, [](const Json&) {}, &outcome, &log);
     return outcome.cases.at(0);
   };
   EXPECT_EQ(attempt(1).status, Status::ok);

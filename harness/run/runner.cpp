@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "answer/analysis.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
@@ -13,6 +14,7 @@
 #include "report/accuracy_notes.h"
 #include "report/environment.h"
 #include "run/case_run.h"
+#include "run/journal.h"
 #include "run/overrides.h"
 #include "run/report_store.h"
 #include "run/scene_workers.h"
@@ -103,6 +105,31 @@ WallTime sum(const WallTime& earlier, WallTime now, double total_s) {
   return now;
 }
 
+// What an interrupted run noted after its report was last saved; the time that it had spent goes into the
+// report.
+std::vector<Json> take_journal(const Journal& journal, Report* report) {
+  std::vector<Json> noted = journal.read();
+  try {
+    if (!noted.empty()) report->wall = part_from_json<WallTime>(noted.back().at("wall"));
+  } catch (const std::exception&) {
+    noted.clear();
+  }
+  return noted;
+}
+
+// A line that is no news costs itself: what it told is measured again.
+void take_noted(const std::vector<Json>& noted, const std::string& scene, SceneOutcome* outcome) {
+  size_t damaged = 0;
+  for (const Json& line : noted) {
+    try {
+      if (line.at("scene") == scene) take_news(line.at("news"), outcome);
+    } catch (const std::exception&) {
+      ++damaged;
+    }
+  }
+  if (damaged > 0) log_warning("{}: {} damaged lines of the journal are passed over", scene, damaged);
+}
+
 // The hash of everything that is compiled at run time, and of the methods' plugins.
 std::string sources_hash(const Config& config) {
   std::set<std::string> methods;
@@ -156,8 +183,7 @@ fs::path assets_directory(const fs::path& given) {
 RunOutcome run_config(const RunOptions& options) {
   const Stopwatch watch;
   const Config config = read_config(options);
-  const std::vector<std::string> globs(options.only.empty() ? 0 : 1, options.only);
-  const std::vector<Case> cases = select_cases(config.cases, globs, "--only");
+  const std::vector<Case> cases = select_cases(config.cases, options.only, "--only");
   ReportStore store(options.out.empty() ? fs::path("reports") / "out" / config.name : options.out);
   const WorkerOptions workers = worker_options(options, config, store);
   const DeviceReport device = probe_device(workers);
@@ -167,7 +193,10 @@ RunOutcome run_config(const RunOptions& options) {
   RunOutcome outcome;
   outcome.report_path = store.path();
   Report& report = outcome.report = store.open(fresh_report(options, config, device), options.force);
-  if (!report.cases.empty()) log_info("going on with the interrupted run in {}", store.path().string());
+  Journal journal(store.path().parent_path() / "report.journal", report.created);
+  const std::vector<Json> noted = take_journal(journal, &report);
+  if (!report.cases.empty() || !noted.empty())
+    log_info("going on with the interrupted run in {}", store.path().string());
   report.host.load_at_start = std::max(report.host.load_at_start, load_average());  // of all its starts
   const WallTime earlier = report.wall;
   WorkerLog log;
@@ -175,31 +204,36 @@ RunOutcome run_config(const RunOptions& options) {
     for (SceneReport& scene : state.scenes) scene.notes = accuracy_notes(state.cases, scene.name);
     state.wall = sum(earlier, log.wall, watch.seconds());
     state.host.load_at_end = load_average();
+    state.analysis = analysis_of(state);
     store.save(state);
   };
+  if (noted.empty()) save(report);  // from here on there is something to go on with
+  if (noted.empty()) journal.restart();
 
   for (const std::string& scene : config.scenes) {
     const std::vector<Case> wanted = of_scene(cases, scene);
     if (wanted.empty() || is_done(report, wanted)) continue;
     SceneOutcome done = take_scene(&report, scene);
-    const auto save_so_far = [&] {
-      Report so_far = report;
-      add(done, wanted, &so_far);
-      save(so_far);
+    take_noted(noted, scene, &done);
+    const auto note = [&](const Json& news) {
+      const WallTime wall = sum(earlier, log.wall, watch.seconds());
+      journal.append({{"scene", scene}, {"wall", part_to_json(wall)}, {"news", news}});
     };
     if (log.device_gone.empty()) {
       const bool aa = !options.check_passes && !done.aa;
-      run_scene_in_workers(scene, config, wanted, aa, workers, save_so_far, &done, &log);
+      run_scene_in_workers(scene, config, wanted, aa, workers, note, &done, &log);
     } else {
       for (auto& result :
            failed_cases(wanted, config, ErrorKind::device, "the device was lost in an earlier scene"))
         done.cases.push_back(result);
     }
     add(std::move(done), wanted, &report);
-    save(report);  // what is finished is never lost
+    save(report);
+    journal.restart();  // the report holds it
   }
   report.complete = log.device_gone.empty();
   save(report);
+  if (report.complete) journal.remove();
   for (const SceneReport& scene : report.scenes) {
     for (const auto& note : scene.notes) log_warning("{}: {}", scene.name, note);
   }

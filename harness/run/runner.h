@@ -12,16 +12,16 @@ namespace vsglbench {
 
 struct RunOptions {
   std::filesystem::path config;
-  std::filesystem::path out;     // empty: reports/out/<name of the config>
-  std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
-  std::string only;              // glob over case ids; empty: all
-  std::vector<std::string> set;  // "KEY=VALUE", in place of what the config says
-  std::string device;            // as in select_device()
-  bool force = false;            // measure again what an interrupted run had finished
-  bool validation = false;       // with the validation layers; a message fails the run
-  bool check_passes = false;     // every pass by itself, its outputs looked at: FrameParameters::check_passes
-  double time_limit_s = 0;       // replaces the config's; 0: the config's
-  Announce sabotage;             // tests only, see WorkerOptions
+  std::filesystem::path out;      // empty: reports/out/<name of the config>
+  std::filesystem::path assets;   // empty: $VSGLBENCH_ASSETS
+  std::vector<std::string> only;  // globs over case ids; empty: all
+  std::vector<std::string> set;   // "KEY=VALUE", in place of what the config says
+  std::string device;             // as in select_device()
+  bool force = false;             // measure again what an interrupted run had finished
+  bool validation = false;        // with the validation layers; a message fails the run
+  bool check_passes = false;  // every pass by itself, its outputs looked at: FrameParameters::check_passes
+  double time_limit_s = 0;    // replaces the config's; 0: the config's
+  Announce sabotage;          // tests only, see WorkerOptions
   std::vector<std::string> argv;
 };
 
@@ -34,10 +34,10 @@ struct RunOutcome {
   int exit_code = 0;
 };
 
-// A scene's cases are measured interleaved, so they are finished, and saved, together: an interruption at any
-// moment loses the scene at hand and nothing else. Where a worker process died the report is saved with what
-// that had finished. For a process without threads and without a Vulkan device: it forks. Throws Error for
-// what stops the whole run: config, output folder, no device at the start.
+// Whatever a case has shown is on the disk at once, in the journal beside the report: an interruption at any
+// moment, `kill -9` among them, loses the frames at hand and nothing else, and the same command goes on. The
+// report itself is saved after every scene. For a process without threads and without a Vulkan device: it
+// forks. Throws Error for what stops the whole run: config, output folder, no device at the start.
 RunOutcome run_config(const RunOptions& options);
 
 // The options' folder, or VSGLBENCH_ASSETS, or empty.

@@ -24,8 +24,11 @@ std::string short_hash(const std::string& text) { return Hasher().text(text).hex
 
 std::string folder_of(const std::string& scene) { return "images/" + file_name(scene); }
 
-// "N=256,rsm=256,vis=exact": the last part of a case's id.
-std::string parameters_of(const CaseResult& c) { return c.id.substr(c.scene.size() + c.method.size() + 2); }
+// "N=256,rsm=256,vis=exact": the last part of a case's id. C: Case or CaseResult.
+template <class C>
+std::string parameters_of(const C& c) {
+  return c.id.substr(c.scene.size() + c.method.size() + 2);
+}
 
 // An EXR, coverage in its channel A, with its preview; the EXR's path.
 std::string write_pair(const fs::path& out, const std::string& stem, const Image& image, const Mask& mask,
@@ -43,18 +46,21 @@ std::string write_reference(const fs::path& out, const std::string& scene, const
   return write_pair(out, stem, reference.mean, reference.mask, exposure);
 }
 
-void write_case(const fs::path& out, const CaseRun& run, float exposure, CaseResult* result) {
-  const std::string stem =
-      folder_of(result->scene) + "/" + file_name(result->method) + "/" + file_name(parameters_of(*result));
+// Image and error map; their paths, and the reference's.
+std::map<std::string, std::string> write_case(const fs::path& out, const CaseRun& run, float exposure,
+                                              const std::string& reference) {
+  const Case& c = run.description();
+  const std::string stem = folder_of(c.scene) + "/" + file_name(c.method) + "/" + file_name(parameters_of(c));
   const Image error = error_map(*run.image(), run.reference()->mean, run.mask());
   write_exr(out / (stem + ".error.exr"), error, run.mask());
   write_png(out / (stem + ".error.png"), color_error_map(error, ContactSheet().error_range, run.mask()));
-  result->images = {{"indirect", write_pair(out, stem + ".indirect", *run.image(), run.mask(), exposure)},
-                    {"error", stem + ".error.exr"},
-                    {"reference", write_reference(out, result->scene, *run.reference(), exposure)}};
+  std::map<std::string, std::string> images = {
+      {"indirect", write_pair(out, stem + ".indirect", *run.image(), run.mask(), exposure)},
+      {"error", stem + ".error.exr"},
+      {"reference", reference}};
   if (run.cancellation())
-    result->images["cancellation"] =
-        write_pair(out, stem + ".cancellation", *run.cancellation(), run.mask(), 1);
+    images["cancellation"] = write_pair(out, stem + ".cancellation", *run.cancellation(), run.mask(), 1);
+  return images;
 }
 
 // "N=256", "rsm=256", "vis=exact".
@@ -166,19 +172,31 @@ Captions captions_of(const std::vector<CaseResult>& cases) {
   return captions;
 }
 
-SceneImages::SceneImages(fs::path out, const std::vector<CaseResult>& earlier, SceneReport* scene)
-    : out_(std::move(out)), scene_(scene), exposed_(std::any_of(earlier.begin(), earlier.end(), has_image)) {}
+SceneImages::SceneImages(fs::path out, bool exposed, SceneReport* scene)
+    : out_(std::move(out)), scene_(scene), exposed_(exposed) {}
 
-void SceneImages::write(CaseRun& run, CaseResult* result) {
-  if (!run.image()) return;
+void SceneImages::start(CaseRun& run) {
+  if (!run.image() || run.failed()) return;
   if (!exposed_) scene_->exposure = auto_exposure(run.reference()->mean, run.reference()->mask);
   exposed_ = true;
-  const auto failed = [&](ErrorKind kind, const std::string& message) {
-    if (result->status == Status::ok) result->error = CaseError{kind, message};
-    if (result->status == Status::ok) result->status = Status::failed;
-  };
-  guarded([&] { write_case(out_, run, static_cast<float>(scene_->exposure), result); }, failed);
+  const auto exposure = static_cast<float>(scene_->exposure);
+  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
+  guarded(
+      [&] {
+        const std::string reference = write_reference(out_, scene_->name, *run.reference(), exposure);
+        open_[&run] = std::async(std::launch::async, [this, &run, exposure, reference] {
+          return write_case(out_, run, exposure, reference);
+        });
+      },
+      failed);
   if (!direct_ && run.frame()) write_direct(*run.frame());
+}
+
+void SceneImages::finish(CaseRun& run) {
+  const auto writing = open_.extract(&run);
+  if (writing.empty()) return;
+  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
+  guarded([&] { run.add_images(writing.mapped().get()); }, failed);
 }
 
 void SceneImages::write_direct(Frame& frame) {

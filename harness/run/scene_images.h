@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,14 +36,17 @@ Captions captions_of(const std::vector<CaseResult>& cases);
 // a later case does. Nothing here throws but Error(device_lost).
 class SceneImages {
  public:
-  // `earlier`: cases of the scene that another process has measured. Notes exposure and contact sheet in
-  // `scene`.
-  SceneImages(std::filesystem::path out, const std::vector<CaseResult>& earlier, SceneReport* scene);
+  // `exposed`: another process has written images of the scene, and chosen its exposure. Notes exposure and
+  // contact sheet in `scene`.
+  SceneImages(std::filesystem::path out, bool exposed, SceneReport* scene);
 
-  // Its image, error map and reference, the first time the scene's direct light, too. Notes their paths,
-  // relative to `out`, in `result`; where they can't be written the case fails with kind "output" and keeps
-  // its numbers. A case without an image is left alone.
-  void write(CaseRun& run, CaseResult* result);
+  // Its image, error map and reference, the first time the scene's direct light, too; for a case that was
+  // looked at, whose frame and images stand until finish(). Images and error maps are written by another
+  // thread. A case without an image is left alone.
+  void start(CaseRun& run);
+  // Waits for them and tells the case their paths, relative to `out`; where they can't be written it fails
+  // with kind "output" and keeps its numbers.
+  void finish(CaseRun& run);
 
   // The contact sheet of all cases, from what was written, as contact.png or, of several pages, contact-1.png
   // and so on; without it there is a warning. `shown`: the reference of the first case that has an image.
@@ -54,6 +59,7 @@ class SceneImages {
   SceneReport* scene_;
   bool exposed_ = false;  // the scene's exposure is chosen
   bool direct_ = false;   // written
+  std::map<const CaseRun*, std::future<std::map<std::string, std::string>>> open_;
 };
 
 }  // namespace vsglbench

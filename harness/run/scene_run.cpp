@@ -1,6 +1,7 @@
 #include "run/scene_run.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -9,6 +10,7 @@
 #include "report/noise.h"
 #include "run/memory.h"
 #include "run/references.h"
+#include "run/scene_clocks.h"
 #include "run/scene_images.h"
 #include "run/scene_pdfs.h"
 #include "run/visibility_tracer.h"
@@ -47,12 +49,16 @@ class SceneRun {
  private:
   CaseRun& open(const Case& c);
   CaseInput input_of(CaseRun& run);
-  void measure(const std::string& label);
+  void look_at_all(const std::vector<Case>& cases);
+  void settle(CaseRun& run);
   void add_twin();
+  void time_all();
+  void warm_up();
   template <class Frame>
-  void every_case(Progress& progress, const Frame& frame);
+  void every_case(const Frame& frame);
   void conclude_finished();
   void conclude(CaseRun& run);
+  CaseRun* original_of_twin();
   void pair_twin();
   void draw_sheet();
   void harness_works(const std::string& what) { observer_.now({"", what, false}); }
@@ -63,6 +69,7 @@ class SceneRun {
   WallTime* wall_;
   std::optional<GroundTruth> truth_;  // for whole frames
   Stage stage_;
+  SceneClocks clocks_;
   ScenePdfs pdfs_;  // for generation alone
   SceneReport report_;
   SceneImages images_;
@@ -70,8 +77,16 @@ class SceneRun {
   std::vector<CaseRun> runs_;  // the twin, if there is one, last
   std::vector<CaseResult> results_;
   uint64_t kept_bytes_ = 0;
-  bool twin_ = false, paired_ = false;
+  bool twin_ = false;
 };
+
+bool has_images(const SceneOutcome& outcome) {
+  const auto has = [](const CaseResult& c) { return !c.images.empty(); };
+  return std::ranges::any_of(outcome.cases, has) ||
+         std::ranges::any_of(outcome.begun, [&](const auto& begun) {
+           return begun.second.scored && has(begun.second.scored->result);
+         });
+}
 
 SceneReport describe(const Scene& scene, const std::string& name) {
   SceneReport report;
@@ -91,9 +106,10 @@ SceneRun::SceneRun(Device& device, KernelLibrary& kernels, const Scene& scene, c
       observer_(observer),
       wall_(wall),
       stage_(device, kernels, scene),
+      clocks_(options.device_uuid, report.clocks),
       pdfs_(stage_),
       report_(report),
-      images_(options.out, earlier.cases, &report_),
+      images_(options.out, has_images(earlier), &report_),
       wants_twin_(options.aa) {
   if (config.measure == Measure::frame) truth_.emplace(scene, config, wall);
 }
@@ -110,9 +126,11 @@ CaseInput SceneRun::input_of(CaseRun& run) {
   }
   // A reference takes as long as it takes; when it brings the process down the case that asked for it is to
   // blame.
-  observer_.now({c.id, "computing its reference", false});
-  input.reference = &truth_->references.get(c);
-  input.reference_info = &truth_->references.info(c);
+  if (!run.scored()) {
+    observer_.now({c.id, "computing its reference", false});
+    input.reference = &truth_->references.get(c);
+    input.reference_info = &truth_->references.info(c);
+  }
   input.exact = [this, &run](const std::vector<LightPoint>& lights) {
     return run.rest_limit([&] { return truth_->visibility.trace(*run.frame(), lights); });
   };
@@ -120,8 +138,10 @@ CaseInput SceneRun::input_of(CaseRun& run) {
 }
 
 CaseRun& SceneRun::open(const Case& c) {
-  CaseRun& run =
-      runs_.emplace_back(c, config_, wall_, [this](const Activity& activity) { observer_.now(activity); });
+  const auto begun = earlier_.begun.find(c.id);
+  CaseRun& run = runs_.emplace_back(
+      c, config_, wall_, [this](const Activity& activity) { observer_.now(activity); },
+      begun == earlier_.begun.end() ? CaseProgress() : begun->second);
   const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
   guarded(
       [&] {
@@ -133,88 +153,129 @@ CaseRun& SceneRun::open(const Case& c) {
   return run;
 }
 
+// --- looking ---
+
+void SceneRun::run(const std::vector<Case>& cases) {
+  runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
+  look_at_all(cases);
+  if (wants_twin_) add_twin();
+  time_all();
+  if (config_.measure == Measure::frame) draw_sheet();
+}
+
+// While the device renders a case's seeds, the host measures those of the cases before it.
+void SceneRun::look_at_all(const std::vector<Case>& cases) {
+  Progress progress(report_.name + ": images", cases.size());
+  const size_t ahead = std::max<size_t>(1, std::thread::hardware_concurrency() / std::max(1u, config_.seeds));
+  size_t settled = 0;
+  for (const Case& c : cases) {
+    progress.label(c.id);
+    CaseRun& run = open(c);
+    run.look();
+    images_.start(run);
+    if (runs_.size() - settled > ahead) settle(runs_[settled++]);
+    progress.advance();
+  }
+  while (settled < runs_.size()) settle(runs_[settled++]);
+}
+
+// What is looked at is told at once, so that no later end of this process can take it.
+void SceneRun::settle(CaseRun& run) {
+  const bool earlier = run.scored();
+  run.settle();
+  images_.finish(run);
+  if (run.failed()) return conclude(run);
+  if (earlier) return;
+  observer_.described(report_);
+  observer_.scored(run.score());
+}
+
 // The first case that has proved sound, under another name: what the two show as a difference is noise.
 void SceneRun::add_twin() {
-  const auto sound = std::find_if(runs_.begin(), runs_.end(), [](const CaseRun& r) { return !r.failed(); });
+  const auto sound = std::ranges::find_if(runs_, [](const CaseRun& r) { return !r.failed(); });
   if (sound == runs_.end()) return;
   Case twin = sound->description();
   twin.id = twin_id(twin.id);
   twin_ = true;
-  CaseRun& run = open(twin);
-  for (uint32_t i = 0; i < config_.warmup; ++i) run.warm_up();
+  open(twin);
 }
 
-// --- measuring ---
-
-void SceneRun::run(const std::vector<Case>& cases) {
-  runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
-  for (const Case& c : cases) open(c);
-  measure(report_.name);
-  if (config_.measure == Measure::frame) draw_sheet();
-}
+// --- timing ---
 
 template <class Frame>
-void SceneRun::every_case(Progress& progress, const Frame& frame) {
-  for (CaseRun& run : runs_) {
-    if (run.finished()) continue;
-    progress.label(run.description().id);
-    frame(run);
-    progress.advance();
+void SceneRun::every_case(const Frame& frame) {
+  for (CaseRun& run : runs_)
+    if (!run.finished()) frame(run);
+}
+
+// Frames of every case, in rounds, for as long as a clock takes to rise that an idle device has let fall.
+void SceneRun::warm_up() {
+  constexpr double kBusySeconds = 0.3;
+  const Stopwatch watch;
+  const auto unfinished = [](const CaseRun& run) { return !run.finished(); };
+  for (uint32_t round = 0; round < config_.warmup || watch.seconds() < kBusySeconds; ++round) {
+    if (std::ranges::none_of(runs_, unfinished)) return;
+    every_case([](CaseRun& run) { run.warm_up(); });
   }
 }
 
-void SceneRun::measure(const std::string& label) {
+void SceneRun::time_all() {
   uint64_t frames = 0;
-  for (const CaseRun& run : runs_) frames += run.finished() ? 0 : run.frames_left() + config_.warmup;
-  Progress progress(label, frames);
-  const auto step = [](CaseRun& run) { run.step(); };
-  for (uint32_t i = 0; i < config_.warmup; ++i) every_case(progress, [](CaseRun& run) { run.warm_up(); });
-  every_case(progress, step);
-  // A round behind the others, since a case that fails does so in its first frame.
-  if (wants_twin_) add_twin();
+  for (const CaseRun& run : runs_) frames += run.frames_left();
+  Progress progress(report_.name + ": times", frames);
   conclude_finished();
+  warm_up();
   const auto unfinished = [](const CaseRun& run) { return !run.finished(); };
-  while (std::any_of(runs_.begin(), runs_.end(), unfinished)) {
-    every_case(progress, step);
+  while (std::ranges::any_of(runs_, unfinished)) {
+    clocks_.look();
+    every_case([&](CaseRun& run) {
+      run.step();
+      if (!run.failed()) observer_.timed(run.description().id, run.last_frame());
+      progress.advance();
+    });
+    clocks_.look();
+    if (clocks_.report()) report_.clocks = clocks_.report();
     conclude_finished();
   }
 }
 
 // --- concluding ---
 
-// Between two rounds: what is finished is written and told at once, so that no later crash can take it.
+// Between two rounds: what is finished is told at once, so that no later crash can take it. The case that the
+// twin repeats waits for it, so that the two stay a pair whenever a run is cut short.
 void SceneRun::conclude_finished() {
-  for (CaseRun& run : runs_) {
-    if (run.finished() && !run.concluded()) conclude(run);
-  }
-  if (twin_ && !paired_) pair_twin();
+  if (twin_) pair_twin();
+  const CaseRun* waiting = original_of_twin();
+  for (CaseRun& run : runs_)
+    if (run.finished() && !run.concluded() && &run != waiting) conclude(run);
 }
 
 void SceneRun::conclude(CaseRun& run) {
   const bool is_twin = twin_ && &run == &runs_.back();
-  CaseResult result = run.result();
-  if (!is_twin) {
-    harness_works("writing images");
-    images_.write(run, &result);
-  }
+  const CaseResult result = run.result();
   run.conclude();
   harness_works("measuring");
   if (is_twin) return;
-  observer_.described(report_);
   observer_.concluded(result);
-  results_.push_back(std::move(result));
+  results_.push_back(result);
+}
+
+// While the twin is measured; else null.
+CaseRun* SceneRun::original_of_twin() {
+  if (!twin_ || runs_.back().concluded()) return nullptr;
+  const auto original = std::ranges::find_if(runs_, [&](const CaseRun& run) {
+    return twin_id(run.description().id) == runs_.back().description().id;
+  });
+  return &*original;
 }
 
 // Nothing when either failed.
 void SceneRun::pair_twin() {
-  const CaseRun& twin = runs_.back();
-  const auto original = std::find_if(runs_.begin(), runs_.end(), [&](const CaseRun& run) {
-    return twin_id(run.description().id) == twin.description().id;
-  });
-  if (!original->concluded() || !twin.concluded()) return;
-  paired_ = true;
-  if (original->failed() || twin.failed()) return;
-  observer_.paired(aa_pair(original->result(), twin.result()));
+  const CaseRun* original = original_of_twin();
+  CaseRun& twin = runs_.back();
+  if (!original || !original->finished() || !twin.finished()) return;
+  if (!original->failed() && !twin.failed()) observer_.paired(aa_pair(original->result(), twin.result()));
+  conclude(twin);
 }
 
 void SceneRun::draw_sheet() {

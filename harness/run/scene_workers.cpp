@@ -40,15 +40,32 @@ struct Jobs {
 // layers have said since its last message.
 struct SceneNews {
   std::optional<SceneReport> scene;
+  std::optional<ScoredCase> scored;
+  std::vector<std::pair<std::string, FrameTimes>> frames;  // timed, by case id
   std::optional<CaseResult> result;
   std::optional<AaPair> aa;
   WallTime wall;
   std::vector<std::string> validation;
 };
 
+Json frame_json(const std::string& id, const FrameTimes& frame) {
+  Json passes = Json::array();
+  for (const PassTime& pass : frame.passes) passes.push_back({pass.pass.name(), pass.ms});
+  return {id, frame.span_ms, frame.sum_ms, frame.generate_dispatches, passes};
+}
+
+std::pair<std::string, FrameTimes> frame_from(const Json& json) {
+  FrameTimes frame{.span_ms = json.at(1), .sum_ms = json.at(2), .generate_dispatches = json.at(3)};
+  for (const Json& pass : json.at(4)) frame.passes.push_back({parse_pass_name(pass.at(0)), pass.at(1)});
+  return {json.at(0), frame};
+}
+
 Json to_json(const SceneNews& news) {
   Json json = {{"wall", part_to_json(news.wall)}, {"validation", news.validation}};
   if (news.scene) json["scene"] = part_to_json(*news.scene);
+  if (news.scored)
+    json["scored"] = {{"case", part_to_json(news.scored->result)}, {"rays_ms", news.scored->rays_ms}};
+  for (const auto& [id, frame] : news.frames) json["frames"].push_back(frame_json(id, frame));
   if (news.result) json["case"] = part_to_json(*news.result);
   if (news.aa) json["aa"] = part_to_json(*news.aa);
   return json;
@@ -58,8 +75,28 @@ void from_json(const Json& json, SceneNews* news) {
   news->wall = part_from_json<WallTime>(json.at("wall"));
   news->validation = json.at("validation");
   if (json.contains("scene")) news->scene = part_from_json<SceneReport>(json["scene"]);
+  if (json.contains("scored"))
+    news->scored = {part_from_json<CaseResult>(json["scored"].at("case")), json["scored"].at("rays_ms")};
+  if (json.contains("frames"))
+    for (const Json& frame : json["frames"]) news->frames.push_back(frame_from(frame));
   if (json.contains("case")) news->result = part_from_json<CaseResult>(json["case"]);
   if (json.contains("aa")) news->aa = part_from_json<AaPair>(json["aa"]);
+}
+
+bool is_worth_noting(const SceneNews& news) {
+  return news.scene || news.scored || !news.frames.empty() || news.result || news.aa;
+}
+
+void add(const SceneNews& news, SceneOutcome* outcome) {
+  const auto is_open = [&](const std::string& id) { return !has_result(*outcome, id); };
+  if (news.scene) outcome->scene = news.scene;
+  if (news.scored && is_open(news.scored->result.id))
+    outcome->begun[news.scored->result.id].scored = news.scored;
+  for (const auto& [id, frame] : news.frames)
+    if (is_open(id)) outcome->begun[id].frames.push_back(frame);
+  if (news.result && is_open(news.result->id)) outcome->cases.push_back(*news.result);
+  if (news.result) outcome->begun.erase(news.result->id);
+  if (news.aa) outcome->aa = news.aa;
 }
 
 // --- in the worker ---
@@ -95,6 +132,15 @@ class Reporter : public SceneObserver {
     n.scene = scene;
     worker_.tell(n);
   }
+  void scored(const ScoredCase& scored) override {
+    SceneNews n = news();
+    n.scored = scored;
+    worker_.tell(n);
+  }
+  // Travels with the next action that is announced: between two timed frames there is one message.
+  void timed(const std::string& case_id, const FrameTimes& frame) override {
+    frames_.emplace_back(case_id, frame);
+  }
   void concluded(const CaseResult& result) override {
     SceneNews n = news();
     n.result = result;
@@ -111,7 +157,7 @@ class Reporter : public SceneObserver {
 
  private:
   SceneNews news() {
-    SceneNews n{.wall = wall};
+    SceneNews n{.frames = std::exchange(frames_, {}), .wall = wall};
     const auto& messages = device_.validation_messages();
     n.validation.assign(messages.begin() + static_cast<ptrdiff_t>(told_), messages.end());
     told_ = messages.size();
@@ -122,7 +168,8 @@ class Reporter : public SceneObserver {
   const Jobs& jobs_;
   const WorkerOptions& options_;
   const Device& device_;
-  size_t told_ = 0;  // validation messages
+  std::vector<std::pair<std::string, FrameTimes>> frames_;  // not told yet
+  size_t told_ = 0;                                         // validation messages
 };
 
 // Whether only the contact sheet is missing.
@@ -144,8 +191,8 @@ void work(const Worker<SceneNews>& worker, const std::vector<size_t>& left, cons
   Device device(options.device);
   Reporter reporter(worker, jobs, options, device);
   KernelLibrary kernels(device);
-  run_scene(device, kernels, scene, config, cases, earlier, {options.scenes, options.out, aa}, reporter,
-            &reporter.wall);
+  run_scene(device, kernels, scene, config, cases, earlier,
+            {options.scenes, options.out, device.info().uuid, aa}, reporter, &reporter.wall);
   reporter.finished();
 }
 
@@ -154,18 +201,23 @@ void work(const Worker<SceneNews>& worker, const std::vector<size_t>& left, cons
 // What the workers of one scene tell, and what they lose.
 class SceneWatch {
  public:
-  SceneWatch(const std::string& scene, const Config& config, const Jobs& jobs, SceneOutcome* outcome,
-             WorkerLog* log)
-      : scene_(scene), config_(config), jobs_(jobs), outcome_(*outcome), log_(*log), before_(log->wall) {}
+  SceneWatch(const std::string& scene, const Config& config, const Jobs& jobs, const Noted& noted,
+             SceneOutcome* outcome, WorkerLog* log)
+      : scene_(scene),
+        config_(config),
+        jobs_(jobs),
+        noted_(noted),
+        outcome_(*outcome),
+        log_(*log),
+        before_(log->wall) {}
 
   void take(const SceneNews& news) {
-    if (news.scene) outcome_.scene = news.scene;
-    if (news.result && !has_result(outcome_, news.result->id)) outcome_.cases.push_back(*news.result);
-    if (news.aa) outcome_.aa = news.aa;
+    add(news, &outcome_);
     log_.wall = before_;
-    add(news.wall, &log_.wall);
+    vsglbench::add(news.wall, &log_.wall);
     log_.validation_messages.insert(log_.validation_messages.end(), news.validation.begin(),
                                     news.validation.end());
+    if (is_worth_noting(news)) noted_(to_json(news));
   }
 
   // A lost twin costs the A/A pair, and a lost sheet itself.
@@ -178,8 +230,12 @@ class SceneWatch {
                                 : end.kind == ErrorKind::internal ? end.how
                                                                   : message_of(end);
     for (CaseResult& result :
-         failed_cases({jobs_.cases[job]}, config_, no_fault ? ErrorKind::device : end.kind, message))
-      outcome_.cases.push_back(std::move(result));
+         failed_cases({jobs_.cases[job]}, config_, no_fault ? ErrorKind::device : end.kind, message)) {
+      SceneNews news;
+      news.result = std::move(result);
+      add(news, &outcome_);
+      noted_(to_json(news));
+    }
   }
 
   void bury(const End& end) {
@@ -197,6 +253,7 @@ class SceneWatch {
   const std::string& scene_;
   const Config& config_;
   const Jobs& jobs_;
+  const Noted& noted_;
   SceneOutcome& outcome_;
   WorkerLog& log_;
   WallTime before_;  // of the workers that ended
@@ -232,13 +289,13 @@ DeviceReport probe_device(const WorkerOptions& options) {
 }
 
 void run_scene_in_workers(const std::string& scene, const Config& config, const std::vector<Case>& cases,
-                          bool aa, const WorkerOptions& options, const std::function<void()>& died,
-                          SceneOutcome* outcome, WorkerLog* log) {
+                          bool aa, const WorkerOptions& options, const Noted& noted, SceneOutcome* outcome,
+                          WorkerLog* log) {
   std::vector<Case> left;
   std::copy_if(cases.begin(), cases.end(), std::back_inserter(left),
                [&](const Case& c) { return !has_result(*outcome, c.id); });
   const Jobs jobs{left, aa && !outcome->aa};
-  SceneWatch watch(scene, config, jobs, outcome, log);
+  SceneWatch watch(scene, config, jobs, noted, outcome, log);
   supervise<SceneNews>({.name = scene,
                         .jobs = jobs.count(),
                         .work =
@@ -247,11 +304,13 @@ void run_scene_in_workers(const std::string& scene, const Config& config, const 
                             },
                         .told = [&](const SceneNews& news) { watch.take(news); },
                         .lost = [&](size_t job, const End& end) { watch.lose(job, end); },
-                        .died =
-                            [&](const End& end) {
-                              watch.bury(end);
-                              died();
-                            }});
+                        .died = [&](const End& end) { watch.bury(end); }});
+}
+
+void take_news(const Json& json, SceneOutcome* outcome) {
+  SceneNews news;
+  from_json(json, &news);
+  add(news, outcome);
 }
 
 }  // namespace vsglbench

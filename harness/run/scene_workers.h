@@ -31,12 +31,19 @@ struct WorkerLog {
   std::string device_gone;  // why no device could be opened any more; empty: there is one
 };
 
+// Is given everything that a scene's workers find or lose, as soon as it is known; take_news() takes it back.
+using Noted = std::function<void(const Json& news)>;
+
 // Measures those of `cases` that `outcome` holds no result of, in one worker process. When that dies the case
-// that was active fails (kind crashed, timeout or device_lost), what was finished is kept, `died` is called,
-// and a new worker measures the rest (base/supervise.h). One that dies at the harness's own work fails all
-// that is left. When no device can be opened any more, all that are left fail with kind device.
+// that was active fails (kind crashed, timeout or device_lost), what was found is kept, and a new worker goes
+// on with the rest (base/supervise.h). One that dies at the harness's own work fails all that is left. When
+// no device can be opened any more, all that are left fail with kind device.
 void run_scene_in_workers(const std::string& scene, const Config& config, const std::vector<Case>& cases,
-                          bool aa, const WorkerOptions& options, const std::function<void()>& died,
-                          SceneOutcome* outcome, WorkerLog* log);
+                          bool aa, const WorkerOptions& options, const Noted& noted, SceneOutcome* outcome,
+                          WorkerLog* log);
+
+// Adds to the outcome what another process was told; nothing of a case that has come to an end. Throws
+// std::exception for what is no news.
+void take_news(const Json& news, SceneOutcome* outcome);
 
 }  // namespace vsglbench

@@ -1,0 +1,103 @@
+// Tried claims for a terminal, or as Markdown.
+#include <algorithm>
+
+#include "answer/claims.h"
+#include "base/printable.h"
+
+namespace vsglbench {
+namespace {
+
+// "fis|mfis K=1 beside vpl, at equal N: the ratio must be below 1"
+std::string pair_text(const PaperClaim& c) {
+  std::string out = settings_text(c.a) + " beside " + settings_text(c.b);
+  if (!c.both.empty()) out += ", both " + settings_text(c.both);
+  out += c.equal_time ? ", at equal time" : c.a.contains("N") ? "" : ", at equal N";
+  return out + fmt::format("; the ratio must be {} {:.3g}",
+                           c.says == Says::less   ? "below"
+                           : c.says == Says::more ? "above"
+                                                  : "no more than",
+                           c.factor);
+}
+
+std::string ratio_text(const ClaimRow& r) {
+  return r.pairs == 0 ? "" : fmt::format("{:.3g} [{:.3g}, {:.3g}]", r.ratio, r.ci95.lo, r.ci95.hi);
+}
+
+// "5 of 6, 1 contrary, 0.61 … 1.2"
+std::string pairs_text(const ClaimRow& r) {
+  if (r.pairs == 0) return r.why;
+  std::string out = fmt::format("{} of {}", r.holding, r.pairs);
+  if (r.contrary > 0) out += fmt::format(", {} contrary", r.contrary);
+  if (r.pairs > 1) out += fmt::format(", {:.3g} … {:.3g}", r.lowest, r.highest);
+  return out;
+}
+
+// "holds in 3, undecided in 1 of 4"
+std::string summary(const TriedClaim& claim) {
+  if (claim.rows.empty()) return "not run";
+  std::vector<std::string> parts;
+  for (const Ruling ruling :
+       {Ruling::holds, Ruling::in_part, Ruling::undecided, Ruling::does_not_hold, Ruling::not_run}) {
+    const auto count = std::ranges::count(claim.rows, ruling, &ClaimRow::ruling);
+    if (count > 0) parts.push_back(fmt::format("{} {}", name(ruling), count));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+// Where nothing was run for one reason, that; else empty.
+std::string why_not_at_all(const TriedClaim& tried) {
+  if (tried.rows.empty()) return fmt::format("no scene {}", fmt::join(tried.claim.scenes, ", "));
+  const auto same = [&](const ClaimRow& r) { return r.pairs == 0 && r.why == tried.rows.front().why; };
+  return std::ranges::all_of(tried.rows, same) ? tried.rows.front().why : "";
+}
+
+std::string terminal(const TriedClaim& tried) {
+  std::string out = fmt::format("{}: {}\n  {}  {}\n  {}\n", tried.claim.name, summary(tried),
+                                tried.claim.text, tried.claim.source, pair_text(tried.claim));
+  if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "    " + why + "\n";
+  size_t scene = 5;
+  for (const ClaimRow& r : tried.rows) scene = std::max(scene, r.scene.size());
+  for (const ClaimRow& r : tried.rows) {
+    out += fmt::format("    {:<{}}  {:<13}  {:<13}  {:<24}  {}\n", r.scene, scene, r.metric, name(r.ruling),
+                       ratio_text(r), pairs_text(r));
+  }
+  return out;
+}
+
+std::string markdown(const TriedClaim& tried) {
+  std::string out = fmt::format("**{}**: {}. {} {}\n\n{}.\n\n", tried.claim.name, summary(tried),
+                                tried.claim.text, tried.claim.source, pair_text(tried.claim));
+  if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
+  out += "| scene | metric | ruling | ratio [95 %] | pairs as said |\n| --- | --- | --- | ---: | --- |\n";
+  for (const ClaimRow& r : tried.rows)
+    out += fmt::format("| {} | {} | {} | {} | {} |\n", r.scene, r.metric, name(r.ruling), ratio_text(r),
+                       pairs_text(r));
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string settings_text(const Json& settings) {
+  std::vector<std::string> parts;
+  for (const auto& item : settings.items()) {
+    std::vector<std::string> values;
+    for (const Json& v : item.value().is_array() ? item.value() : Json::array({item.value()}))
+      values.push_back(v.is_string() ? v.get<std::string>() : v.dump());
+    const std::string value = fmt::format("{}", fmt::join(values, "|"));
+    parts.push_back(item.key() == "method" ? value : item.key() + "=" + value);
+  }
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool as_markdown) {
+  std::string out;
+  for (const TriedClaim& c : claims) out += as_markdown ? markdown(c) : terminal(c) + "\n";
+  return out + fmt::format(
+                   "ratios: geometric means over pairs of cases alike in all else, with Student's interval "
+                   "over seeds "
+                   "(of times: the ends of the medians' intervals and the A/A noise); {}{}\n",
+                   printable(report.device.name),
+                   report.device.type == "cpu" ? ", a CPU: its times say nothing of a GPU's" : "");
+}
+
+}  // namespace vsglbench

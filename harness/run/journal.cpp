@@ -1,0 +1,82 @@
+#include "run/journal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "base/log.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+constexpr const char* kSchema = "vsglbench.journal/1";
+
+void write_all(int file, const std::string& text, const fs::path& path) {
+  for (size_t at = 0; at < text.size();) {
+    const ssize_t n = ::write(file, text.data() + at, text.size() - at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0)
+      throw fail(ErrorKind::output, "{}: can't be written: {}", path.string(), std::strerror(errno));
+    at += static_cast<size_t>(n);
+  }
+}
+
+}  // namespace
+
+Journal::Journal(fs::path path, std::string created) : path_(std::move(path)), created_(std::move(created)) {}
+
+Journal::~Journal() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void Journal::open(int flags) {
+  if (file_ >= 0) ::close(file_);
+  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | flags, 0644);
+  if (file_ < 0)
+    throw fail(ErrorKind::output, "{}: can't be written: {}", path_.string(), std::strerror(errno));
+}
+
+std::vector<Json> Journal::read() const {
+  std::vector<Json> messages;
+  std::ifstream file(path_, std::ios::binary);
+  size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    Json json = Json::parse(line, nullptr, false);
+    if (number == 1 && json != Json{{"schema", kSchema}, {"created", created_}}) return {};
+    if (json.is_discarded()) {
+      log_warning("{}:{}: no JSON; what it told is measured again", path_.string(), number);
+    } else if (number > 1) {
+      messages.push_back(std::move(json));
+    }
+  }
+  return messages;
+}
+
+void Journal::append(const Json& message) {
+  if (file_ < 0) open(0);
+  // A line that was cut off ends here.
+  char last = '\n';
+  const off_t size = ::lseek(file_, 0, SEEK_END);
+  const bool cut = size > 0 && ::pread(file_, &last, 1, size - 1) == 1 && last != '\n';
+  write_all(file_, (cut ? "\n" : "") + message.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n",
+            path_);
+}
+
+void Journal::restart() {
+  open(O_TRUNC);
+  append({{"schema", kSchema}, {"created", created_}});
+}
+
+void Journal::remove() {
+  std::error_code ec;
+  fs::remove(path_, ec);
+}
+
+}  // namespace vsglbench

@@ -1,0 +1,47 @@
+// The errors of a case's seeds, measured on other threads while the device renders the next seed.
+#pragma once
+
+#include <deque>
+#include <future>
+#include <optional>
+#include <vector>
+
+#include "image/flip.h"
+#include "image/metrics.h"
+#include "reference/reference.h"
+
+namespace vsglbench {
+
+// Of one image against the reference.
+struct SeedScore {
+  uint64_t seed = 0;
+  Errors errors;
+  std::optional<ErrorQuantiles> quantiles;  // of seed 0
+};
+
+class Scoring {
+ public:
+  // `reference` outlives it. FLIP looks at an image once an exposure: where that takes long, it is measured
+  // for seed 0 alone.
+  Scoring(const ReferenceResult& reference, Mask mask);
+  // Starts. Waits while more images are open than memory should hold.
+  void add(uint64_t seed, Image image);
+  // Waits for all of them; by seed. Throws what measuring threw.
+  std::vector<SeedScore> collect();
+
+  const Mask& mask() const { return mask_; }
+  // Nothing for a black reference.
+  const std::optional<FlipExposures>& flip_exposures() const { return exposures_; }
+
+ private:
+  SeedScore score(uint64_t seed, const Image& image) const;
+  void take_oldest();
+  const ReferenceResult& reference_;
+  Mask mask_;
+  std::optional<FlipExposures> exposures_;
+  std::shared_future<FlipReference> flip_;  // not valid for a black reference
+  std::deque<std::future<SeedScore>> open_;
+  std::vector<SeedScore> scores_;
+};
+
+}  // namespace vsglbench
