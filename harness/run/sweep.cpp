@@ -14,7 +14,7 @@
 namespace vsglbench {
 namespace {
 
-constexpr size_t kMaxCases = 100000;
+constexpr size_t kMaxCombinations = 10000;  // of all entries and scenes
 
 // One list of a sweep.
 struct Axis {
@@ -44,11 +44,12 @@ class Entry {
     add_axes();
   }
 
-  // Every combination of the lists; `most`: of all entries.
-  void expand(const FrameParameters& base, size_t most, std::vector<NamedCase>* out) const {
+  // Every combination of the lists, also those that repeat a case; `left`: how many may be tried.
+  void expand(const FrameParameters& base, size_t* left, std::vector<NamedCase>* out) const {
     std::vector<size_t> index(axes_.size(), 0);
     for (;;) {
-      if (out->size() >= most) throw doc_.error(at_, fmt::format("makes more than {} cases", kMaxCases));
+      if (*left == 0) throw doc_.error(at_, fmt::format("makes more than {} combinations", kMaxCombinations));
+      --*left;
       if (!repeats(index)) out->push_back(make_case(base, index));
       size_t i = axes_.size();
       while (i > 0 && ++index[i - 1] == axes_[i - 1].values.size()) index[--i] = 0;
@@ -257,7 +258,8 @@ std::vector<Case> expand_cases(const JsonDocument& doc, const Json& root, const 
   for (size_t i = 0; i < root.at("methods").size(); ++i)
     entries.emplace_back(doc, root, root_preset, overrides, i);
   std::vector<NamedCase> made;
-  for (const Entry& entry : entries) entry.expand(base, kMaxCases / scenes.size(), &made);
+  size_t left = kMaxCombinations / scenes.size();
+  for (const Entry& entry : entries) entry.expand(base, &left, &made);
   name_cases(&made);
 
   std::map<std::string, std::string> ids;  // by fingerprint

@@ -57,7 +57,29 @@ TEST_F(ConfigTest, ASweepOfMillionsIsRefused) {
   Json many = Json::array();
   for (int i = 1; i <= 2000; ++i) many.push_back(i);
   config_["methods"] = {{{"method", "vpl"}, {"N", many}, {"rsm", many}}};
-  EXPECT_TRUE(contains(problem(), "more than 100000 cases"));
+  EXPECT_TRUE(contains(problem(), "more than 10000 combinations"));
+}
+
+TEST_F(ConfigTest, ASweepOfTenThousandCasesIsTheLargest) {
+  Json many = Json::array();
+  for (int i = 1; i <= 100; ++i) many.push_back(i);
+  config_["methods"] = {{{"method", "vpl"}, {"N", many}, {"rsm", many}}};
+  EXPECT_EQ(load().cases.size(), 10000u);
+  config_["methods"].push_back({{"method", "fis"}});
+  EXPECT_TRUE(contains(problem(), "'methods/1' makes more than 10000 combinations"));
+}
+
+// A config of a kilobyte kept the programme busy for a minute.
+TEST_F(ConfigTest, CombinationsThatRepeatOneCaseCount) {
+  const auto repeated = [](const char* value) { return Json(std::vector<std::string>(20, value)); };
+  config_["methods"] = {{{"method", "all-texels"},
+                         {"shading", "exact"},
+                         {"diffuse", repeated("cosine")},
+                         {"lobes", repeated("toksvig")},
+                         {"lobe_filter", repeated("on")},
+                         {"variance", repeated("3d")},
+                         {"receiver", repeated("asg")}}};
+  EXPECT_TRUE(contains(problem(), "more than 10000 combinations"));
 }
 
 // Shading is of VSGLs: a VPL case comes once, whatever is swept for the others.

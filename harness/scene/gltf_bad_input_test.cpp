@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/gltf_fixture.h"
+#include "scene/gltf_material.h"
 
 namespace vsglbench {
 namespace {
@@ -144,6 +145,33 @@ TEST_F(GltfBadInput, Textures) {
   EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 0}}), "is not an image"));
   EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 50}}), "bufferView"));
   EXPECT_TRUE(contains(after("/materials/0/alphaMode", "SHINY"), "SHINY"));
+}
+
+// The library made room for what the PNG's chunk or its size states, up to 1 GiB, before it found it too
+// short.
+TEST_F(GltfBadInput, APngThatPromisesMoreThanItHoldsTakesNoMemory) {
+  const auto peak_kib = [] {
+    std::ifstream status("/proc/self/status");
+    long kib = 0;
+    for (std::string word; status >> word;) {
+      if (word == "VmPeak:") status >> kib;
+    }
+    return kib;
+  };
+  const std::string good = decode_base64(kPngBase64);
+  const auto decoded = [](const std::string& png) {
+    Texture texture;
+    return decode_image(reinterpret_cast<const uint8_t*>(png.data()), png.size(), &texture);
+  };
+  ASSERT_TRUE(decoded(good));
+  const long before = peak_kib();
+  constexpr size_t kWidth = 16, kHeight = 20, kDataLength = 33;
+  std::string wide = good, long_chunk = good;
+  wide[kWidth + 2] = wide[kHeight + 2] = 0x3f;
+  long_chunk[kDataLength] = 0x10;
+  EXPECT_FALSE(decoded(wide));
+  EXPECT_FALSE(decoded(long_chunk));
+  EXPECT_LT(peak_kib() - before, 64 << 10);
 }
 
 TEST_F(GltfBadInput, NoTriangles) {

@@ -123,10 +123,38 @@ Material read_material(GltfFile* file, const tinygltf::Material& from, size_t in
   return to;
 }
 
+uint32_t big_endian(const uint8_t* at) { return uint32_t{at[0]} << 24 | at[1] << 16 | at[2] << 8 | at[3]; }
+
+// Whether a PNG's first chunk promises no more pixels than `size` bytes can hold.
+bool fits_png(const uint8_t* png, size_t size) {
+  constexpr uint32_t kMaxSide = 1 << 24;
+  constexpr uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4}, kMaxCompression = 1100, kAlwaysRoom = 1 << 16;
+  if (size < 26) return false;
+  if (!std::equal(png + 12, png + 16, "IHDR")) return true;
+  const uint64_t width = big_endian(png + 16), height = big_endian(png + 20), depth = png[24];
+  if (width > kMaxSide || height > kMaxSide || png[25] >= std::size(kChannels)) return false;
+  return width * height * kChannels[png[25]] * depth / 8 <= size * kMaxCompression + kAlwaysRoom;
+}
+
+// False for a PNG that promises more than it holds: the library makes room for up to 1 GiB before it finds
+// that out.
+bool keeps_promises(const uint8_t* encoded, size_t size) {
+  constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  if (size < sizeof kPng || !std::equal(kPng, std::end(kPng), encoded)) return true;
+  // Each chunk: length, type, data, and a sum.
+  for (size_t at = sizeof kPng; at + 8 <= size;) {
+    const size_t length = big_endian(encoded + at);
+    if (length > size - at - 8) return false;
+    if (std::equal(encoded + at + 4, encoded + at + 8, "IEND")) break;
+    at += length + 12;
+  }
+  return fits_png(encoded, size);
+}
+
 }  // namespace
 
 bool decode_image(const uint8_t* encoded, size_t size, Texture* texture) {
-  if (size == 0 || size > 0x7fffffff) return false;
+  if (size == 0 || size > 0x7fffffff || !keeps_promises(encoded, size)) return false;
   tinygltf::Image image;
   std::string unused;
   try {
