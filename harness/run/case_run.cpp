@@ -57,6 +57,10 @@ void CaseRun::fail_with(ErrorKind kind, const std::string& message) {
   frame_.reset();
 }
 
+void CaseRun::fail_in_the_end(ErrorKind kind, const std::string& message) {
+  if (!result_.error) result_.error = CaseError{kind, message};
+}
+
 template <class Action>
 void CaseRun::attempt(const std::string& name, const Action& action) {
   if (finished()) return;
@@ -302,6 +306,7 @@ void CaseRun::describe_shading() {
 
 CaseResult CaseRun::result() const {
   CaseResult r = result_;
+  if (r.status == Status::ok && r.error) r.status = Status::failed;
   for (size_t i = 0; i < passes_.size(); ++i) r.passes.push_back({passes_[i], summarize(pass_ms_[i])});
   if (span_ms_.empty()) r.generate.reset();
   if (!span_ms_.empty()) {

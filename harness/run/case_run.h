@@ -68,6 +68,8 @@ class CaseRun {
   uint64_t frames_left() const;  // at least
   // The first failure stays; what was measured until then is kept. Kind asset_missing skips the case.
   void fail_with(ErrorKind kind, const std::string& message);
+  // The case is measured to its end, and fails then.
+  void fail_in_the_end(ErrorKind kind, const std::string& message);
 
   // Everything measured so far, as the report holds it.
   CaseResult result() const;

@@ -29,8 +29,6 @@ void write_all(int file, const std::string& text, const fs::path& path) {
 
 }  // namespace
 
-Journal::Journal(fs::path path, std::string created) : path_(std::move(path)), created_(std::move(created)) {}
-
 Journal::~Journal() {
   if (file_ >= 0) ::close(file_);
 }
@@ -42,17 +40,24 @@ void Journal::open(int flags) {
     throw fail(ErrorKind::output, "{}: can't be written: {}", path_.string(), std::strerror(errno));
 }
 
+Json Journal::header() const {
+  std::ifstream file(path_, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  const Json json = Json::parse(line, nullptr, false);
+  return json.is_object() && json.value("schema", "") == kSchema ? json.value("about", Json()) : Json();
+}
+
 std::vector<Json> Journal::read() const {
   std::vector<Json> messages;
   std::ifstream file(path_, std::ios::binary);
   size_t number = 0;
   for (std::string line; std::getline(file, line);) {
-    ++number;
+    if (++number == 1) continue;  // the header
     Json json = Json::parse(line, nullptr, false);
-    if (number == 1 && json != Json{{"schema", kSchema}, {"created", created_}}) return {};
     if (json.is_discarded()) {
       log_warning("{}:{}: no JSON; what it told is measured again", path_.string(), number);
-    } else if (number > 1) {
+    } else {
       messages.push_back(std::move(json));
     }
   }
@@ -69,9 +74,9 @@ void Journal::append(const Json& message) {
             path_);
 }
 
-void Journal::restart() {
+void Journal::restart(const Json& header) {
   open(O_TRUNC);
-  append({{"schema", kSchema}, {"created", created_}});
+  append({{"schema", kSchema}, {"about", header}});
 }
 
 void Journal::remove() {

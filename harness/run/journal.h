@@ -3,7 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/json.h"
@@ -12,27 +12,26 @@ namespace vsglbench {
 
 class Journal {
  public:
-  // `created`: of the report that it is about. What lies there of another report is of no use, and goes with
-  // the first restart().
-  Journal(std::filesystem::path path, std::string created);
+  explicit Journal(std::filesystem::path path) : path_(std::move(path)) {}
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
+  // What it is about, as restart() was told; null where there is no journal.
+  Json header() const;
   // What was appended since the last restart(), by this process or an earlier one. A line that was cut off is
   // passed over, with a warning.
   std::vector<Json> read() const;
   // Throws Error(output), like restart().
   void append(const Json& message);
-  // Empties it, once the report holds what it says.
-  void restart();
+  // Empties it: at the start of a run, and once a report holds what it says.
+  void restart(const Json& header);
   // When the run is complete.
   void remove();
 
  private:
   void open(int flags);
   std::filesystem::path path_;
-  std::string created_;
   int file_ = -1;
 };
 

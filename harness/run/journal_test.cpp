@@ -17,45 +17,50 @@ class JournalTest : public ::testing::Test {
     fs::remove(path_);
   }
   void TearDown() override { fs::remove(path_); }
-  std::vector<Json> read(const std::string& created = "2024") const { return Journal(path_, created).read(); }
+  std::vector<Json> read() const { return Journal(path_).read(); }
   fs::path path_;
 };
 
 TEST_F(JournalTest, AnotherProcessReadsWhatWasAppended) {
-  Journal journal(path_, "2024");
-  journal.restart();
+  Journal journal(path_);
+  journal.restart("2024");
   journal.append({{"a", 1}});
   journal.append({{"b", "two\nlines"}});
   ASSERT_EQ(read().size(), 2u);
   EXPECT_EQ(read()[1]["b"], "two\nlines");
-  Journal(path_, "2024").append(3);
+  Journal(path_).append(3);
   EXPECT_EQ(read().size(), 3u);
-  journal.restart();
+  journal.restart("2024");
   EXPECT_TRUE(read().empty());
 }
 
-TEST_F(JournalTest, OneOfAnotherReportIsOfNoUse) {
+TEST_F(JournalTest, SaysWhatItIsAbout) {
+  EXPECT_TRUE(Journal(path_).header().is_null());
   EXPECT_TRUE(read().empty());
-  Journal journal(path_, "2024");
-  journal.restart();
+  Journal journal(path_);
+  journal.restart({{"created", "2024"}});
   journal.append(1);
-  EXPECT_TRUE(read("2025").empty());
+  EXPECT_EQ(Journal(path_).header(), (Json{{"created", "2024"}}));
+  write_text(path_, "no journal\n{}\n");
+  EXPECT_TRUE(Journal(path_).header().is_null());
+  write_text(path_, R"({"schema": 3})");
+  EXPECT_TRUE(Journal(path_).header().is_null());
 }
 
 TEST_F(JournalTest, ALineThatWasCutOffCostsItself) {
-  Journal journal(path_, "2024");
-  journal.restart();
+  Journal journal(path_);
+  journal.restart("2024");
   journal.append({{"a", 1}});
   journal.append({{"b", 2}});
   fs::resize_file(path_, fs::file_size(path_) - 3);
   EXPECT_EQ(read().size(), 1u);
-  Journal(path_, "2024").append({{"c", 3}});
+  Journal(path_).append({{"c", 3}});
   ASSERT_EQ(read().size(), 2u);
   EXPECT_EQ(read()[1]["c"], 3);
 }
 
 TEST_F(JournalTest, AFolderInItsPlaceIsAnError) {
-  EXPECT_THROW(Journal(path_ / "absent" / "file", "2024").restart(), Error);
+  EXPECT_THROW(Journal(path_ / "absent" / "file").restart({}), Error);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "report/report.h"
+#include "run/journal.h"
 
 namespace vsglbench {
 
@@ -19,8 +21,8 @@ class ReportStore {
   ReportStore(const ReportStore&) = delete;
   ReportStore& operator=(const ReportStore&) = delete;
 
-  // What to go on with: the report of an interrupted run of the same experiment, program and device; else
-  // `fresh`, and always so with `anew`.
+  // What to go on with: the report of an interrupted run of the same experiment, program and device, saved
+  // already or only begun; else `fresh`, and always so with `anew`.
   Report open(const Report& fresh, bool anew);
   // In a child process: closes its copy of the lock, which is the parent's alone. Without it a child that
   // dies a moment after the parent would keep the next run out.
@@ -29,9 +31,20 @@ class ReportStore {
   void save(const Report& report);
   const std::filesystem::path& path() const { return path_; }
 
+  // Beside the report, what it does not hold yet of the run that open() said to go on with.
+  std::vector<Json> noted() const { return goes_on_ ? journal_.read() : std::vector<Json>(); }
+  void note(const Json& news) { journal_.append(news); }
+  // The notes are in the report now, or there are none to go on with.
+  void forget_notes(const Report& report);
+  // The run is complete.
+  void close() { journal_.remove(); }
+
  private:
+  std::optional<Report> begun(const Report& fresh) const;
   std::filesystem::path folder_, path_;
   std::optional<std::filesystem::path> aside_;  // where the earlier report goes at the next save
+  Journal journal_;
+  bool goes_on_ = false;
   int lock_ = -1;
 };
 

@@ -14,7 +14,6 @@
 #include "report/accuracy_notes.h"
 #include "report/environment.h"
 #include "run/case_run.h"
-#include "run/journal.h"
 #include "run/overrides.h"
 #include "run/report_store.h"
 #include "run/scene_workers.h"
@@ -107,8 +106,8 @@ WallTime sum(const WallTime& earlier, WallTime now, double total_s) {
 
 // What an interrupted run noted after its report was last saved; the time that it had spent goes into the
 // report.
-std::vector<Json> take_journal(const Journal& journal, Report* report) {
-  std::vector<Json> noted = journal.read();
+std::vector<Json> take_notes(const ReportStore& store, Report* report) {
+  std::vector<Json> noted = store.noted();
   try {
     if (!noted.empty()) report->wall = part_from_json<WallTime>(noted.back().at("wall"));
   } catch (const std::exception&) {
@@ -193,8 +192,7 @@ RunOutcome run_config(const RunOptions& options) {
   RunOutcome outcome;
   outcome.report_path = store.path();
   Report& report = outcome.report = store.open(fresh_report(options, config, device), options.force);
-  Journal journal(store.path().parent_path() / "report.journal", report.created);
-  const std::vector<Json> noted = take_journal(journal, &report);
+  const std::vector<Json> noted = take_notes(store, &report);
   if (!report.cases.empty() || !noted.empty())
     log_info("going on with the interrupted run in {}", store.path().string());
   report.host.load_at_start = std::max(report.host.load_at_start, load_average());  // of all its starts
@@ -207,8 +205,7 @@ RunOutcome run_config(const RunOptions& options) {
     state.analysis = analysis_of(state);
     store.save(state);
   };
-  if (noted.empty()) save(report);  // from here on there is something to go on with
-  if (noted.empty()) journal.restart();
+  if (noted.empty()) store.forget_notes(report);
 
   for (const std::string& scene : config.scenes) {
     const std::vector<Case> wanted = of_scene(cases, scene);
@@ -217,7 +214,7 @@ RunOutcome run_config(const RunOptions& options) {
     take_noted(noted, scene, &done);
     const auto note = [&](const Json& news) {
       const WallTime wall = sum(earlier, log.wall, watch.seconds());
-      journal.append({{"scene", scene}, {"wall", part_to_json(wall)}, {"news", news}});
+      store.note({{"scene", scene}, {"wall", part_to_json(wall)}, {"news", news}});
     };
     if (log.device_gone.empty()) {
       const bool aa = !options.check_passes && !done.aa;
@@ -229,11 +226,11 @@ RunOutcome run_config(const RunOptions& options) {
     }
     add(std::move(done), wanted, &report);
     save(report);
-    journal.restart();  // the report holds it
+    store.forget_notes(report);
   }
   report.complete = log.device_gone.empty();
   save(report);
-  if (report.complete) journal.remove();
+  if (report.complete) store.close();
   for (const SceneReport& scene : report.scenes) {
     for (const auto& note : scene.notes) log_warning("{}: {}", scene.name, note);
   }

@@ -180,7 +180,7 @@ void SceneImages::start(CaseRun& run) {
   if (!exposed_) scene_->exposure = auto_exposure(run.reference()->mean, run.reference()->mask);
   exposed_ = true;
   const auto exposure = static_cast<float>(scene_->exposure);
-  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
+  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_in_the_end(kind, message); };
   guarded(
       [&] {
         const std::string reference = write_reference(out_, scene_->name, *run.reference(), exposure);
@@ -195,7 +195,7 @@ void SceneImages::start(CaseRun& run) {
 void SceneImages::finish(CaseRun& run) {
   const auto writing = open_.extract(&run);
   if (writing.empty()) return;
-  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
+  const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_in_the_end(kind, message); };
   guarded([&] { run.add_images(writing.mapped().get()); }, failed);
 }
 

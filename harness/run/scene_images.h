@@ -44,8 +44,8 @@ class SceneImages {
   // looked at, whose frame and images stand until finish(). Images and error maps are written by another
   // thread. A case without an image is left alone.
   void start(CaseRun& run);
-  // Waits for them and tells the case their paths, relative to `out`; where they can't be written it fails
-  // with kind "output" and keeps its numbers.
+  // Waits for them and tells the case their paths, relative to `out`; where they can't be written it
+  // fails in the end, with kind "output", and keeps its numbers.
   void finish(CaseRun& run);
 
   // The contact sheet of all cases, from what was written, as contact.png or, of several pages, contact-1.png
