@@ -45,7 +45,8 @@ Json Journal::header() const {
   std::string line;
   std::getline(file, line);
   const Json json = Json::parse(line, nullptr, false);
-  return json.is_object() && json.value("schema", "") == kSchema ? json.value("about", Json()) : Json();
+  const bool is_ours = json.is_object() && json.contains("schema") && json["schema"] == kSchema;
+  return is_ours && json.contains("about") ? json["about"] : Json();
 }
 
 std::vector<Json> Journal::read() const {
