@@ -64,7 +64,8 @@ std::optional<Point> point_of(const CaseResult& c, const Named& metric, const st
           {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})},
           {},
           {ms->median, ms->ci95},
-          m.heavy_tailed};
+          m.heavy_tailed,
+          ms->samples.size()};
   if (m.heavy_tailed) p.error = {*m.median, {*m.least, *m.largest}};
   for (const SeedResult& s : c.seeds) {
     if (const auto v = s.errors.value(metric.metric)) p.seeds.push_back(*v);

@@ -24,12 +24,16 @@ struct AnswerOptions {
   std::string time = "method";
 };
 
+// Of fewer frames the bootstrap's interval says nothing.
+inline constexpr size_t kFewFrames = 3;
+
 struct Point {
   const CaseResult* result = nullptr;
   Estimate error;  // in the metric's unit, mean over seeds; the median and range where seeds are heavy-tailed
   std::vector<double> seeds;  // the metric of each seed, in the report's order
   Estimate ms;                // median over frames
   bool heavy_tailed = false;  // of its seeds: `error` is the median and the range
+  size_t frames = 0;          // that the time is of
 };
 
 // Cases that can be compared: one scene, one reference, hence one idea of what visibility counts.

@@ -27,10 +27,16 @@ double number_in(const std::string& text, const std::string& whole, const char* 
   return value;
 }
 
-std::string number(double v) { return fmt::format("{:.3g}", v); }
+std::string number(double v) { return v < 1000 ? fmt::format("{:.3g}", v) : fmt::format("{:.0f}", v); }
 
 std::string with_interval(const Estimate& e, const std::string& unit) {
   return fmt::format("{}{} [{}, {}]", number(e.value), unit, number(e.ci95.lo), number(e.ci95.hi));
+}
+
+// A time that few frames were measured of has no interval to speak of.
+std::string time_text(const Point& p) {
+  if (p.frames >= kFewFrames) return with_interval(p.ms, "");
+  return fmt::format("{} ({} frame{})", number(p.ms.value), p.frames, p.frames == 1 ? "" : "s");
 }
 
 class Answer {
@@ -80,8 +86,8 @@ class Answer {
     const Point& best = group_.points[fitting_.front()];
     std::string out =
         fmt::format("{}: for {}, take {}: {} {} in {} ms ({}){}.", where(), asked(), label(fitting_.front()),
-                    metric_title(metric()), with_interval(best.error, metric_unit(metric())),
-                    with_interval(best.ms, ""), time_words(question_.options.time), rivals());
+                    metric_title(metric()), with_interval(best.error, metric_unit(metric())), time_text(best),
+                    time_words(question_.options.time), rivals());
     return out + " " + halving(best);
   }
 
@@ -89,10 +95,9 @@ class Answer {
   std::string summary() const {
     const std::vector<size_t> front = front_of(group_);
     const Point& least = group_.points[front.back()];
-    std::string out =
-        fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(), metric_title(metric()),
-                    with_interval(least.error, metric_unit(metric())), label(front.back()),
-                    with_interval(least.ms, ""), time_words(question_.options.time));
+    std::string out = fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(),
+                                  metric_title(metric()), with_interval(least.error, metric_unit(metric())),
+                                  label(front.back()), time_text(least), time_words(question_.options.time));
     const auto is_near = [&](size_t i) { return group_.points[i].error.value <= 2 * least.error.value; };
     const size_t cheapest = *std::ranges::find_if(front, is_near);
     if (cheapest == front.back()) return out + " No cheaper case is within twice that error.";
@@ -156,7 +161,7 @@ class Answer {
     for (const size_t i : rows) {
       const Point& p = group_.points[i];
       out += fmt::format("  {:<{}}  {:>24}  {:>24}  {:>8}\n", label(i), width, with_interval(p.error, ""),
-                         with_interval(p.ms, ""), first > 0 ? fmt::format("{:.2f}", rank(p) / first) : "-");
+                         time_text(p), first > 0 ? fmt::format("{:.2f}", rank(p) / first) : "-");
     }
     if (!names_.shared().empty()) out += fmt::format("  all: {}\n", names_.shared());
     out += group_.noise_known

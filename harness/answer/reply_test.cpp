@@ -52,6 +52,13 @@ TEST(Reply, WithoutAQuestionNamesTheLeastErrorAndWhatIsCheaper) {
       << reply(more.report, {});
 }
 
+TEST(Reply, ATimeOfFewFramesHasNoInterval) {
+  MadeReport made(1, 0, 0, 2);
+  made.add(
+      {.parameters = {{"N", 64}, {"visibility", "exact"}}, .passes = {{"gbuffer", 50}, {"shade", 1640}}});
+  EXPECT_TRUE(has(reply(made.report, {}), "in 1640 (2 frames) ms")) << reply(made.report, {});
+}
+
 TEST(Reply, NamesTheBestWithinATime) {
   Question q;
   ask_time("5ms", &q);

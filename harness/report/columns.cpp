@@ -110,6 +110,9 @@ Column time_column(const char* name, const char* head, bool interval = false) {
   column.cell = [=](const CaseResult& c, const CaseResult&) {
     const auto time = time_of(c, name);
     if (!time) return std::string();
+    const size_t frames = time->samples.size();
+    if (interval && frames < 3)  // of so few there is no interval to speak of
+      return fmt::format("{} ({} frame{})", ms(time->median), frames, frames == 1 ? "" : "s");
     return interval ? fmt::format("{} [{}, {}]", ms(time->median), ms(time->ci95.lo), ms(time->ci95.hi))
                     : ms(time->median);
   };

@@ -1,10 +1,20 @@
 #include "report/table_notes.h"
 
+#include <set>
+
 namespace vsglbench {
 namespace {
 
 std::string count_of(const Json& config, const char* key, const char* what) {
   return config.contains(key) ? fmt::format(", {} {}", config[key].dump(), what) : "";
+}
+
+// The value that all cases have which have one; cases of one report may be swept over it.
+std::string importance_note(const Report& report) {
+  std::set<std::string> values;
+  for (const CaseResult& c : report.cases)
+    if (c.parameters.contains("importance_lights")) values.insert(c.parameters["importance_lights"].dump());
+  return values.size() == 1 ? fmt::format(", {} importance lights", *values.begin()) : "";
 }
 
 std::string setting_note(const Report& report, const std::string& shared) {
@@ -13,7 +23,7 @@ std::string setting_note(const Report& report, const std::string& shared) {
   const Json frame = config.value("frame", Json::object());
   if (frame.contains("width") && frame.contains("height"))
     out += fmt::format(", {}×{} pixels", frame["width"].dump(), frame["height"].dump());
-  out += count_of(config, "importance_lights", "importance lights") + count_of(config, "seeds", "seeds");
+  out += importance_note(report) + count_of(config, "seeds", "seeds");
   if (config.contains("reference"))
     out += count_of(config["reference"], "samples", "samples a pixel of the reference");
   return out.starts_with(", ") ? out.substr(2) : out;

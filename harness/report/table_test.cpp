@@ -128,6 +128,22 @@ TEST(Table, NoiseStandsUnderEachColumnOfEachScene) {
   expect_parts(split(terminal_table(r))[7], {"noise floor", " 3 … 12 "});
 }
 
+TEST(Table, WhatCasesDifferInIsNoNoteOfAll) {
+  Report r = synthetic_report();
+  r.cases.push_back(r.cases[0]);
+  for (size_t i : {0, 3}) r.cases[i].parameters["importance_lights"] = 128;
+  EXPECT_NE(terminal_table(r).find("128 importance lights"), std::string::npos);
+  r.cases[3].parameters["importance_lights"] = 1024;
+  EXPECT_EQ(terminal_table(r).find("importance lights"), std::string::npos);
+}
+
+TEST(Table, ATimeOfFewFramesHasNoInterval) {
+  Report r = synthetic_report();
+  EXPECT_EQ(terminal_table(r).find("frames)"), std::string::npos);
+  r.cases[0].frame->method = summarize({24.5, 25.5});
+  EXPECT_NE(terminal_table(r).find(" 25.00 (2 frames)"), std::string::npos) << terminal_table(r);
+}
+
 TEST(Table, ClocksThatWereHeldDownAreTold) {
   Report r = synthetic_report();
   EXPECT_EQ(terminal_table(r).find("held down"), std::string::npos);
