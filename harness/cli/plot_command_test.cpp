@@ -24,6 +24,14 @@ TEST_F(CliTest, PlotPrintsWhatItWrote) {
                  "nothing to draw");
 }
 
+// What is committed beside a report is what the programme says of it.
+TEST_F(CliTest, CommittedAnswersAndClaimsAreThoseOfTheirReports) {
+  const std::string reports = std::string(VSGLBENCH_SOURCE_DIR) + "/reports/",
+                    front = reports + "front-lavapipe";
+  EXPECT_EQ(run({"answer", front}).out, read_text(front + "/answer.txt"));
+  EXPECT_EQ(run({"claims", front, "--markdown"}).out, read_text(front + "/claims.md"));
+}
+
 TEST_F(CliTest, AnalyseWritesIntoTheReport) {
   const std::string copy = (folder_ / "report.json").string();
   std::filesystem::copy_file(kCut + "/report.json", copy);
