@@ -107,11 +107,12 @@ WallTime sum(const WallTime& earlier, WallTime now, double total_s) {
 // What an interrupted run noted after its report was last saved; the time that it had spent goes into the
 // report.
 std::vector<Json> take_notes(const ReportStore& store, Report* report) {
-  std::vector<Json> noted = store.noted();
-  try {
-    if (!noted.empty()) report->wall = part_from_json<WallTime>(noted.back().at("wall"));
-  } catch (const std::exception&) {
-    noted.clear();
+  const std::vector<Json> noted = store.noted();
+  for (const Json& line : noted) {
+    try {
+      report->wall = part_from_json<WallTime>(line.at("wall"));
+    } catch (const std::exception&) {  // take_noted() tells of what is damaged
+    }
   }
   return noted;
 }
