@@ -27,6 +27,13 @@ void write_all(int file, const std::string& text, const fs::path& path) {
   }
 }
 
+// Links are not followed, and pipes not waited for.
+bool is_file_or_absent(const fs::path& path) {
+  std::error_code ec;
+  const fs::file_type type = fs::symlink_status(path, ec).type();
+  return type == fs::file_type::regular || type == fs::file_type::not_found;
+}
+
 }  // namespace
 
 Journal::~Journal() {
@@ -35,12 +42,15 @@ Journal::~Journal() {
 
 void Journal::open(int flags) {
   if (file_ >= 0) ::close(file_);
-  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | flags, 0644);
+  if (!is_file_or_absent(path_))
+    throw fail(ErrorKind::output, "{}: is no plain file; remove it", path_.string());
+  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | flags, 0644);
   if (file_ < 0)
     throw fail(ErrorKind::output, "{}: can't be written: {}", path_.string(), std::strerror(errno));
 }
 
 Json Journal::header() const {
+  if (!is_file_or_absent(path_)) return {};
   std::ifstream file(path_, std::ios::binary);
   std::string line;
   std::getline(file, line);

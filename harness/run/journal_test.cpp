@@ -59,6 +59,15 @@ TEST_F(JournalTest, ALineThatWasCutOffCostsItself) {
   EXPECT_EQ(read()[1]["c"], 3);
 }
 
+TEST_F(JournalTest, ALinkIsNotFollowed) {
+  const fs::path victim = path_.string() + ".victim";
+  write_text(victim, "precious");
+  fs::create_symlink(victim, path_);
+  EXPECT_THROW(Journal(path_).restart({}), Error);
+  EXPECT_EQ(read_text(victim), "precious");
+  fs::remove(victim);
+}
+
 TEST_F(JournalTest, AFolderInItsPlaceIsAnError) {
   EXPECT_THROW(Journal(path_ / "absent" / "file").restart({}), Error);
 }
