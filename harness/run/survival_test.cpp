@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -9,7 +10,6 @@
 #include <set>
 #include <thread>
 
-#include "measure/stopwatch.h"
 #include "run/run_fixture.h"
 #include "run/runner.h"
 
@@ -50,6 +50,11 @@ class SurvivalTest : public RunFixture {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
   static fs::path diary_of(const fs::path& out) { return out.string() + ".diary"; }
+  static size_t lines_of(const fs::path& file) {
+    std::ifstream in(file);
+    return static_cast<size_t>(
+        std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n'));
+  }
   // Timed frames that were begun.
   static size_t frames_begun(const fs::path& out) {
     std::ifstream diary(diary_of(out));
@@ -85,21 +90,18 @@ std::set<std::string> files_in(const fs::path& folder) {
 
 TEST_F(SurvivalTest, KilledTenTimesTheReportIsTheSame) {
   const fs::path whole = folder_ / "whole", killed = folder_ / "killed";
-  const Stopwatch watch;
   ASSERT_EQ(wait(start(whole)), 0);
-  const double seconds = watch.seconds();
 
+  // Each at a random action, of so few that ten starts together can't end the run.
   std::mt19937_64 random(std::random_device{}());
-  size_t kills = 0;
+  const size_t most = lines_of(diary_of(whole)) / (2 * kKills);
   for (size_t i = 0; i < kKills; ++i) {
+    const size_t moment = lines_of(diary_of(killed)) + std::uniform_int_distribution<size_t>(1, most)(random);
     const pid_t pid = start(killed);
-    const double moment = std::uniform_real_distribution<>(0.02, 0.2)(random) * seconds;
-    std::this_thread::sleep_for(std::chrono::duration<double>(moment));
+    while (lines_of(diary_of(killed)) < moment) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ::kill(pid, SIGKILL);
-    if (wait(pid) != -SIGKILL) break;  // it was complete
-    ++kills;
+    ASSERT_EQ(wait(pid), -SIGKILL) << i;
   }
-  EXPECT_GE(kills, 1u);  // as many as there was time for, where the first run was slowed down by others
   const bool is_open = fs::exists(killed / "report.journal") || !fs::exists(killed / "report.json");
   ASSERT_EQ(is_open ? wait(start(killed)) : 0, 0);
 
@@ -115,7 +117,7 @@ TEST_F(SurvivalTest, KilledTenTimesTheReportIsTheSame) {
   EXPECT_EQ(report.aa.size(), 2u);
   // The frame at hand, and those before it whose times were on their way: frames of a millisecond, of which a
   // busy machine lets several pass before they are read.
-  EXPECT_LE(frames_begun(killed), frames_begun(whole) + 8 * kills);
+  EXPECT_LE(frames_begun(killed), frames_begun(whole) + 8 * kKills);
 }
 
 }  // namespace
