@@ -113,6 +113,17 @@ void ReportStore::forget_notes(const Report& report) {
   journal_.restart(to_json(empty));
 }
 
+void ReportStore::close() {
+  journal_.remove();
+  std::error_code ec;
+  std::vector<fs::path> left;  // as write_atomically() names them: .NAME.PID.SERIAL.tmp.EXTENSION
+  for (fs::recursive_directory_iterator at(folder_ / "images", ec), end; !ec && at != end; at.increment(ec)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with('.') && name.find(".tmp") != std::string::npos) left.push_back(at->path());
+  }
+  for (const fs::path& path : left) fs::remove(path, ec);
+}
+
 void ReportStore::save(const Report& report) {
   if (!aside_) return write_report(path_, report);
   const fs::path next = folder_ / ".report.next.json";

@@ -36,8 +36,8 @@ class ReportStore {
   void note(const Json& news) { journal_.append(news); }
   // The notes are in the report now, or there are none to go on with.
   void forget_notes(const Report& report);
-  // The run is complete.
-  void close() { journal_.remove(); }
+  // The run is complete: takes away the journal, and half-written files that killed processes have left.
+  void close();
 
  private:
   std::optional<Report> begun(const Report& fresh) const;
