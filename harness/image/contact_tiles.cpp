@@ -41,15 +41,6 @@ Mask reduce(const Mask& mask, uint32_t width, uint32_t height, uint32_t factor) 
   return out;
 }
 
-Bitmap enlarge(const Bitmap& bitmap, uint32_t factor) {
-  if (factor == 1) return bitmap;
-  Bitmap out(bitmap.width * factor, bitmap.height * factor);
-  for (uint32_t y = 0; y < out.height; ++y) {
-    for (uint32_t x = 0; x < out.width; ++x) std::copy_n(bitmap.at(x / factor, y / factor), 3, out.at(x, y));
-  }
-  return out;
-}
-
 // 0.2 as "20 %".
 std::string percent(float fraction) { return fmt::format("{:.4g} %", 100 * fraction); }
 
@@ -67,13 +58,14 @@ TileSize tile_size(const Image& image, uint32_t least_down) {
 }
 
 Bitmap image_tile(const ContactSheet& sheet, const Image& image, const TileSize& size) {
-  return enlarge(tone_map(size.down > 1 ? reduce(image, size.down) : image, sheet.exposure), size.up);
+  return enlarge(tone_map(size.down > 1 ? reduce(image, size.down) : image, sheet.exposure), size.up,
+                 size.up);
 }
 
 Bitmap error_tile(const ContactSheet& sheet, Image error, const TileSize& size) {
   const Mask mask = reduce(sheet.mask, error.width, error.height, size.down);
   if (size.down > 1) error = reduce(error, size.down);
-  return enlarge(color_error_map(error, sheet.error_range, mask), size.up);
+  return enlarge(color_error_map(error, sheet.error_range, mask), size.up, size.up);
 }
 
 Bitmap text_tile(const std::string& text, const TileSize& size) {

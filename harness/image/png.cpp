@@ -2,8 +2,10 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -36,6 +38,17 @@ Bitmap tone_map(const Image& image, float exposure) {
     const bool finite = std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
     uint8_t* rgb = &out.bytes[3 * i];
     for (int k = 0; k < 3; ++k) rgb[k] = finite ? encode_srgb(exposure * c[k]) : (k == 1 ? 0 : 255);
+  }
+  return out;
+}
+
+Bitmap enlarge(const Bitmap& bitmap, uint32_t across, uint32_t down) {
+  if (across == 0 || down == 0) throw std::logic_error("a picture enlarged 0 times");
+  if (across == 1 && down == 1) return bitmap;
+  Bitmap out(bitmap.width * across, bitmap.height * down, bitmap.channels);
+  for (uint32_t y = 0; y < out.height; ++y) {
+    for (uint32_t x = 0; x < out.width; ++x)
+      std::copy_n(bitmap.at(x / across, y / down), bitmap.channels, out.at(x, y));
   }
   return out;
 }

@@ -27,6 +27,9 @@ uint8_t encode_srgb(float value);
 // encode_srgb(exposure · radiance) per channel; a pixel with a NaN or Inf is drawn magenta (255, 0, 255).
 Bitmap tone_map(const Image& image, float exposure);
 
+// Each pixel repeated `across` times in its row, each row `down` times. Throws std::logic_error for 0.
+Bitmap enlarge(const Bitmap& bitmap, uint32_t across, uint32_t down);
+
 // A PNG file's bytes. Throws Error(output) when the bitmap is empty.
 std::string encode_png(const Bitmap& bitmap);
 

@@ -1,0 +1,108 @@
+#include "image/apng.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/png_chunks.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+constexpr uint32_t kForever = 0, kKeep = 0, kReplace = 0;  // num_plays, dispose_op NONE, blend_op SOURCE
+constexpr uint32_t kDelayNumerator = 100;
+
+// What comes before a frame's pixels. Control and data chunks are numbered together.
+std::string frame_control(uint32_t* sequence, const Bitmap& bitmap, uint32_t delay_denominator) {
+  return png_chunk("fcTL", big_endian((*sequence)++) + big_endian(bitmap.width) + big_endian(bitmap.height) +
+                               big_endian(0) + big_endian(0) + big_endian(kDelayNumerator, 2) +
+                               big_endian(delay_denominator, 2) + big_endian(kKeep, 1) +
+                               big_endian(kReplace, 1));
+}
+
+// An ordinary PNG file but for its end, with the animation's chunks where they belong: before IDAT.
+std::string first_frame(const Bitmap& bitmap, uint32_t frames, uint32_t delay_denominator,
+                        uint32_t* sequence) {
+  const std::string encoded = encode_png(bitmap);
+  std::string out(kPngSignature);
+  bool pixels = false;
+  for (const PngChunk& chunk : png_chunks(encoded)) {
+    if (chunk.type == "IEND") continue;
+    if (chunk.type == "IDAT" && !pixels) {
+      out += png_chunk("acTL", big_endian(frames) + big_endian(kForever));
+      out += frame_control(sequence, bitmap, delay_denominator);
+      pixels = true;
+    }
+    out += png_chunk(chunk.type, chunk.data);
+  }
+  return out;
+}
+
+std::string further_frame(const Bitmap& bitmap, uint32_t delay_denominator, uint32_t* sequence) {
+  const std::string encoded = encode_png(bitmap);
+  std::string out = frame_control(sequence, bitmap, delay_denominator);
+  for (const PngChunk& chunk : png_chunks(encoded)) {
+    if (chunk.type == "IDAT") out += png_chunk("fdAT", big_endian((*sequence)++) + std::string(chunk.data));
+  }
+  return out;
+}
+
+uint32_t delay_denominator_of(double frames_per_second) {
+  const double denominator = std::round(kDelayNumerator * frames_per_second);
+  if (!(denominator >= 1) || denominator > 65535)
+    throw fail(ErrorKind::output, "{} frames a second are not within 0.01 and 655", frames_per_second);
+  return static_cast<uint32_t>(denominator);
+}
+
+// All chunks of the animation into an open file.
+void write_frames(std::ostream& out, uint32_t frames, uint32_t delay_denominator,
+                  const std::function<Bitmap(uint32_t)>& frame) {
+  uint32_t sequence = 0, width = 0, height = 0, channels = 0;
+  for (uint32_t i = 0; i < frames; ++i) {
+    const Bitmap bitmap = frame(i);
+    if (i == 0) width = bitmap.width, height = bitmap.height, channels = bitmap.channels;
+    if (bitmap.width != width || bitmap.height != height || bitmap.channels != channels) {
+      throw fail(ErrorKind::output, "frame {} has {}x{} pixels of {} channels but the first one {}x{} of {}",
+                 i, bitmap.width, bitmap.height, bitmap.channels, width, height, channels);
+    }
+    out << (i == 0 ? first_frame(bitmap, frames, delay_denominator, &sequence)
+                   : further_frame(bitmap, delay_denominator, &sequence));
+  }
+  out << png_chunk("IEND", "");
+}
+
+}  // namespace
+
+void write_apng(const fs::path& path, uint32_t frames, double frames_per_second,
+                const std::function<Bitmap(uint32_t)>& frame) {
+  if (frames == 0) throw fail(ErrorKind::output, "{}: an animation without frames", path.string());
+  const uint32_t delay_denominator = delay_denominator_of(frames_per_second);
+  std::exception_ptr no_frame;
+  const auto asked = [&](uint32_t i) {
+    try {
+      return frame(i);
+    } catch (...) {
+      no_frame = std::current_exception();
+      throw;
+    }
+  };
+  try {
+    write_atomically(path, [&](const fs::path& temporary) {
+      std::ofstream out(temporary, std::ios::binary);
+      write_frames(out, frames, delay_denominator, asked);
+      out.flush();
+      if (!out) throw std::runtime_error(std::strerror(errno));
+    });
+  } catch (...) {
+    if (no_frame) std::rethrow_exception(no_frame);
+    throw;
+  }
+}
+
+}  // namespace vsglbench

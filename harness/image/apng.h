@@ -1,0 +1,20 @@
+// Animated PNG files (PNG third edition, 11.3.3.6: acTL, fcTL, fdAT).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "image/png.h"
+
+namespace vsglbench {
+
+// Frames of one size and one number of channels, each shown for 1 / frames_per_second (to a hundredth of a
+// frame a second), again and again. `frame` is asked for frames 0, 1, … frames − 1, once each, and no more
+// than one is held. What can't show an animation shows frame 0.
+//
+// Throws Error(output) when there are no frames, one is empty or unlike the first, frames_per_second is not
+// within 0.01 … 655, or the disk refuses; and what `frame` throws, as it is. Nothing is left half written.
+void write_apng(const std::filesystem::path& path, uint32_t frames, double frames_per_second,
+                const std::function<Bitmap(uint32_t)>& frame);
+
+}  // namespace vsglbench
