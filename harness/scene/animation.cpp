@@ -41,7 +41,7 @@ bool pose(const MovingObject& object, const glm::dmat4& world, Scene* scene) {
 
 void pose_objects(Scene* scene, double time, std::vector<uint32_t>* moved) {
   const Animation& animation = scene->animation;
-  if (animation.objects.empty()) return;
+  if (animation.nodes.empty()) return;
   const std::vector<glm::dmat4> worlds = world_transforms(animation, time);
   for (uint32_t i = 0; i < animation.objects.size(); ++i) {
     if (pose(animation.objects[i], worlds[animation.objects[i].node], scene)) moved->push_back(i);
@@ -180,7 +180,7 @@ std::vector<glm::dmat4> world_transforms(const Animation& animation, double time
 
 void measure_motion(Scene* scene) {
   Animation& animation = scene->animation;
-  if (animation.objects.empty()) return;
+  if (animation.nodes.empty()) return;
   const double vertices = double(scene->positions.size() - still_vertices(*scene)) * frame_count(*scene);
   if (vertices > kMostPosedVertices) {
     throw fail(

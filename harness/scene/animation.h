@@ -40,8 +40,7 @@ size_t still_vertices(const Scene& scene);
 // coordinates, whose tangents are made where it has none. Zero-area triangles are kept, with a warning.
 void add_object(Scene* scene, MovingObject object, Mesh mesh, uint32_t material);
 
-// World transforms of all nodes at a time, in the nodes' units. Error(scene), "node 'X' ...", where one is
-// not finite.
+// World transforms of all nodes at a time, in the nodes' units. Error(scene) where one is not finite.
 std::vector<glm::dmat4> world_transforms(const Animation& animation, double time);
 
 // Poses all frames once: fills the objects' extents and animation.moves.objects, widens the bounds to all

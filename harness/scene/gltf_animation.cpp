@@ -92,7 +92,7 @@ std::map<int, NodeTracks> read_animations(GltfFile* file) {
   for (size_t i = 0; i < file->model.animations.size(); ++i) {
     const tinygltf::Animation& animation = file->model.animations[i];
     for (size_t k = 0; k < animation.channels.size(); ++k) {
-      const std::string name = animation.name.empty() ? "" : " '" + animation.name + "'";
+      const std::string name = animation.name.empty() ? "" : fmt::format(" '{}'", animation.name);
       read_channel(file,
                    {animation, animation.channels[k], fmt::format("animation {}{} channel {}", i, name, k)},
                    &nodes);

@@ -73,13 +73,13 @@ struct Moved {
 };
 
 struct Animation {
-  uint32_t frames = 0;  // 0: a still scene, which has one frame and nothing below
+  uint32_t frames = 0;  // 0: a still scene, which has one frame, and whose objects stand
   double rate = 24;     // frames a second; frame t is at time t / rate
   std::vector<MovingNode> nodes;
   std::vector<MovingObject> objects;
   std::optional<CameraMotion> camera;  // only of one that is keyed, and so the light
   std::optional<LightMotion> light;
-  // What differs between any two frames: the same as what set_frame() returns, over all of them.
+  // Whatever differs between two frames: all that set_frame() returns of them.
   Moved moves;
   // Of a sun, the place on its rectangle that it was given, before fit_depth_ranges() moves it back by how
   // far the objects get in all frames.

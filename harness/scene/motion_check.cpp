@@ -27,9 +27,10 @@ void check_nodes(const Scene& scene) {
     const MovingNode& node = nodes[i];
     require(node.parent >= -1 && node.parent < static_cast<int>(i), scene,
             "node '{}': its parent {} is not before it", node.name, node.parent);
-    check_track(scene, "'" + node.name + "'", "translation", node.translation);
-    check_track(scene, "'" + node.name + "'", "rotation", node.rotation);
-    check_track(scene, "'" + node.name + "'", "scale", node.scale);
+    const std::string owner = fmt::format("'{}'", node.name);
+    check_track(scene, owner, "translation", node.translation);
+    check_track(scene, owner, "rotation", node.rotation);
+    check_track(scene, owner, "scale", node.scale);
   }
 }
 
