@@ -269,5 +269,37 @@ TEST_F(GltfAnimation, BadTargetsAreErrors) {
   EXPECT_EQ(after("/animations/0/channels/0/target/path", "pointer"), "");  // ignored, with a warning
 }
 
+// Each byte replaced in turn, by several values: the loader may accept or refuse, but what it accepts is
+// sound in every frame.
+TEST_F(GltfAnimation, AnyByteChangedIsSurvived) {
+  animate(0, "translation", {0, 0.25f, 0.5f}, {0, 0, 0, 4, 0, 0, 4, 1, 0});
+  animate(0, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0},
+          "CUBICSPLINE");
+  const std::string bytes = glb_bytes();
+  int loaded = 0, refused = 0;
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (const int value : {0x00, 0x7f, 0x39}) {
+      std::string changed = bytes;
+      changed[i] = static_cast<char>(value);
+      write("changed.glb", changed);
+      Scene scene;
+      scene.animation.frames = 3;
+      scene.animation.rate = 4;
+      try {
+        load_gltf(folder_ / "changed.glb", 1, &scene);
+        ++loaded;
+      } catch (const Error&) {
+        ++refused;
+        continue;
+      }
+      scene.light.up = {0, 0, 1};
+      ASSERT_NO_THROW(check_scene(scene)) << "byte " << i << " is " << value;
+      for (uint32_t frame = 0; frame < 3; ++frame) set_frame(&scene, frame);
+    }
+  }
+  EXPECT_GT(loaded, 100);
+  EXPECT_GT(refused, 100);
+}
+
 }  // namespace
 }  // namespace vsglbench
