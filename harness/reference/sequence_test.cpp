@@ -7,13 +7,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/allocator_interface.h>
-#endif
 
 #include "reference/cache.h"
 #include "reference/test_scenes.h"
 #include "scene/scene_file.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+extern "C" size_t __sanitizer_get_current_allocated_bytes();  // GCC comes without the header
+#endif
 
 namespace vsglbench {
 namespace {
