@@ -11,8 +11,6 @@
 namespace vsglbench {
 namespace {
 
-using test::Quad;
-
 TEST(Tracer, FindsTheClosestTriangle) {
   const Scene scene = test::empty_box();
   const Tracer tracer(scene);

@@ -2,8 +2,10 @@
 // which whoever draws or traces it reads.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,8 @@ namespace vsglbench {
 // Whether two vectors, cameras or lights have the same bits.
 template <class T>
 bool same_bits(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
+  using Bits = std::array<uint32_t, sizeof(T) / 4>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 static_assert(sizeof(Camera) == 4 * 12 && sizeof(Light) == 4 * 18, "same_bits would read padding");
 
