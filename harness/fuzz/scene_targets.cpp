@@ -24,6 +24,7 @@ Bytes bytes_of(std::string_view text) { return {reinterpret_cast<const uint8_t*>
 bool read_gltf(Bytes bytes) {
   const auto path = write_input("input.gltf", bytes);
   Scene scene;
+  scene.animation.frames = 2;  // so that animations are read, too
   if (!accepts([&] { load_gltf(path, 1, &scene); })) return false;
   scene.light.up = {0, 0, 1};
   // Whatever loads is sound.

@@ -95,11 +95,18 @@ std::optional<ReferenceResult> cached_reference(const std::string& hash, const R
 }
 
 ReferenceResult load_or_compute(const Scene& scene, const ReferenceParameters& parameters, bool* from_cache) {
-  const std::string hash = reference_hash(scene, parameters);
+  return load_or_compute(
+      scene, reference_hash(scene, parameters), parameters,
+      [&] { return compute_reference(scene, parameters); }, from_cache);
+}
+
+ReferenceResult load_or_compute(const Scene& scene, const std::string& hash,
+                                const ReferenceParameters& parameters,
+                                const std::function<ReferenceResult()>& compute, bool* from_cache) {
   auto cached = cached_reference(hash, parameters);
   if (from_cache) *from_cache = cached.has_value();
   if (cached) return *std::move(cached);
-  ReferenceResult fresh = compute_reference(scene, parameters);
+  ReferenceResult fresh = compute();
   try {
     store(fresh, parameters);
   } catch (const std::exception& e) {

@@ -1,6 +1,7 @@
 // References on disk: <cache>/references/<hash>.exr and .json.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,9 @@ std::optional<ReferenceResult> cached_reference(const std::string& hash,
 // `from_cache`, if given, says which it was.
 ReferenceResult load_or_compute(const Scene& scene, const ReferenceParameters& parameters,
                                 bool* from_cache = nullptr);
+// The same of any reference of `scene`: the cached one of `hash`, or compute()'s.
+ReferenceResult load_or_compute(const Scene& scene, const std::string& hash,
+                                const ReferenceParameters& parameters,
+                                const std::function<ReferenceResult()>& compute, bool* from_cache = nullptr);
 
 }  // namespace vsglbench

@@ -20,6 +20,7 @@ namespace {
 // Raise it whenever the same parameters would give another image.
 constexpr uint32_t kAlgorithmVersion = 2;
 constexpr uint32_t kExploration = ~0u;  // the batch before the first, which only teaches the light guide
+constexpr uint32_t kLessons = 4;        // batches before that one, which teach a guidance
 constexpr uint32_t kPhotonChunk = 8192, kChunksARound = 64;
 
 using Clock = std::chrono::steady_clock;
@@ -73,14 +74,17 @@ SampleCounts sample_counts(const ReferenceParameters& p, uint32_t batches, doubl
 // One computation: its pixels, its threads' rays, its batches.
 class Run {
  public:
-  Run(const Tracer& tracer, const ReferenceParameters& parameters, std::vector<RayLog>* logs);
+  Run(const Tracer& tracer, const ReferenceParameters& parameters, std::vector<RayLog>* logs,
+      const Guidance* guidance);
   ReferenceResult compute();
+  Guidance learn();
 
  private:
   void trace_pool(uint32_t batch);
   void choose_counts();
   void trace_footprints();
   void learn_guide();
+  void explore();
   void gather(uint32_t batch, bool teach);
   void emit(uint32_t batch);
   void accumulate(uint32_t batch);
@@ -91,6 +95,8 @@ class Run {
 
   const Tracer& tracer_;
   const ReferenceParameters& p_;
+  const Guidance* guidance_;  // nothing: it teaches itself
+  double sharp_ = 0;
   uint32_t batches_;  // planned; more when they miss the floor
   const Clock::time_point start_ = Clock::now();
   SampleCounts counts_;
@@ -106,9 +112,11 @@ class Run {
   Progress progress_;
 };
 
-Run::Run(const Tracer& tracer, const ReferenceParameters& parameters, std::vector<RayLog>* logs)
+Run::Run(const Tracer& tracer, const ReferenceParameters& parameters, std::vector<RayLog>* logs,
+         const Guidance* guidance)
     : tracer_(tracer),
       p_(parameters),
+      guidance_(guidance),
       batches_(planned_batches(parameters)),
       camera_(camera_view(tracer.scene().camera, parameters.width, parameters.height)),
       footprints_(size_t(parameters.width) * parameters.height),
@@ -135,8 +143,10 @@ void Run::choose_counts() {
     throw fail(ErrorKind::case_failed, "{}: the light sees no surface; check its position and direction",
                tracer_.scene().name);
   }
+  sharp_ = guidance_ ? guidance_->sharp : *sharp;
+  if (guidance_) strategies_.follow(*guidance_);
   counts_ =
-      sample_counts(p_, batches_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + *sharp / 4);
+      sample_counts(p_, batches_, p_.photons_a_sample > 0 ? p_.photons_a_sample : 1.0 / 32 + sharp_ / 4);
   strategies_.set_counts(counts_);
 }
 
@@ -166,6 +176,12 @@ void Run::gather(uint32_t batch, bool teach) {
 void Run::learn_guide() {
   parallel_for(strategies_.guide().tiles(), p_.threads,
                [&](uint64_t tile, unsigned) { strategies_.guide().learn(static_cast<uint32_t>(tile)); });
+}
+
+void Run::explore() {
+  trace_pool(kExploration);
+  gather(kExploration, true);
+  learn_guide();
 }
 
 // Chunks of a round run on any thread; their splats are added in order, so that sums round alike.
@@ -235,7 +251,7 @@ ReferenceResult Run::result(uint32_t batches, ReferenceEnd ended_by) const {
   r.photons = uint64_t(batches) * counts_.photons;
   for (const RayStream& stream : streams_) r.rays += stream.rays();
   r.seconds = seconds_since(start_);
-  r.hash = reference_hash(tracer_.scene(), p_);
+  r.hash = reference_hash(tracer_.scene(), p_, guidance_ ? guidance_->taught_by : "");
   return r;
 }
 
@@ -244,42 +260,36 @@ ReferenceResult Run::result(uint32_t batches, ReferenceEnd ended_by) const {
 ReferenceResult Run::compute() {
   choose_counts();
   trace_footprints();
-  trace_pool(kExploration);
-  gather(kExploration, true);
-  learn_guide();
+  if (!guidance_) explore();
   uint32_t batch = 0;
   std::optional<ReferenceEnd> end;
   while (!end) {
     trace_pool(batch);
-    gather(batch, true);
+    gather(batch, !guidance_);
     emit(batch);
     accumulate(batch);
     ++batch;
-    if (std::has_single_bit(batch)) learn_guide();  // after 1, 2, 4, 8 ... of them
+    if (!guidance_ && std::has_single_bit(batch)) learn_guide();  // after 1, 2, 4, 8 ... of them
     end = ended(batch);
   }
   return result(batch, *end);
 }
 
+Guidance Run::learn() {
+  choose_counts();
+  trace_footprints();
+  explore();
+  for (uint32_t lesson = 1; lesson <= kLessons; ++lesson) {
+    trace_pool(kExploration - lesson);
+    gather(kExploration - lesson, true);
+    if (std::has_single_bit(lesson)) learn_guide();
+  }
+  return {tracer_.scene().hash, strategies_.guide(), strategies_.photon_guide(), sharp_};
+}
+
 }  // namespace
 
-std::string_view name(ReferenceEnd end) {
-  constexpr std::string_view names[] = {"samples", "floor", "time_limit"};
-  return names[static_cast<size_t>(end)];
-}
-
-std::string_view name(ShadingNormals normals) {
-  return normals == ShadingNormals::light ? "light" : "camera";
-}
-
-std::optional<ShadingNormals> shading_normals_named(std::string_view text) {
-  for (const ShadingNormals normals : {ShadingNormals::light, ShadingNormals::camera}) {
-    if (name(normals) == text) return normals;
-  }
-  return std::nullopt;
-}
-
-std::string reference_hash(const Scene& scene, const ReferenceParameters& p) {
+std::string reference_hash(const Scene& scene, const ReferenceParameters& p, const std::string& taught_by) {
   Hasher hasher;
   hasher.text("vsglbench.reference").value(kAlgorithmVersion).text(scene.hash);
   hasher.value(p.width)
@@ -289,13 +299,19 @@ std::string reference_hash(const Scene& scene, const ReferenceParameters& p) {
       .value(p.photons_a_sample)
       .value(p.floor);
   hasher.value(p.seed).value(p.occlusion).value(p.strategies).value(p.shading_normals).value(p.time_limit);
+  if (!taught_by.empty()) hasher.text("taught by").text(taught_by);
   return hasher.hex();
 }
 
 ReferenceResult compute_reference(const Tracer& tracer, const ReferenceParameters& parameters,
-                                  std::vector<RayLog>* logs) {
+                                  std::vector<RayLog>* logs, const Guidance* guidance) {
   check_parameters(parameters);
-  return Run(tracer, parameters, logs).compute();
+  return Run(tracer, parameters, logs, guidance).compute();
+}
+
+Guidance learn_guidance(const Tracer& tracer, const ReferenceParameters& parameters) {
+  check_parameters(parameters);
+  return Run(tracer, parameters, nullptr, nullptr).learn();
 }
 
 ReferenceResult compute_reference(const Scene& scene, const ReferenceParameters& parameters) {

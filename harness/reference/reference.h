@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "reference/light_guide.h"
 #include "reference/ray_stream.h"
 #include "reference/tracer.h"
 #include "scene/scene.h"
@@ -75,14 +76,28 @@ struct ReferenceResult {
   std::string hash;  // of the scene and of everything above that determines the image
 };
 
-// Content hash of scene, parameters and algorithm version: the cache's key.
-std::string reference_hash(const Scene& scene, const ReferenceParameters& parameters);
+// What a pose teaches of where its light comes from: where to sample, and how often, which any pose may go by
+// without bias. A computation teaches itself; frames that differ little but are all taught by one of them
+// also take the same samples, and have their noise in common.
+struct Guidance {
+  std::string taught_by;  // Scene::hash
+  LightGuide light, photons;
+  double sharp = 0;  // the share of the light's flux that sharp lobes reflect
+};
+
+// By a third of the work of a reference with 16 batches, and random numbers that no reference uses.
+Guidance learn_guidance(const Tracer& tracer, const ReferenceParameters& parameters);
+
+// Content hash of scene, parameters, algorithm version and, unless it teaches itself, who taught it: the
+// cache's key.
+std::string reference_hash(const Scene& scene, const ReferenceParameters& parameters,
+                           const std::string& taught_by = "");
 
 // Same seed, same bits, whatever the number of threads. A black image is a legal answer. Throws
 // Error(case_failed) when the camera or the light sees no surface, Error(config) for bad parameters.
-// `logs`, if given, receives every ray, in order, of each thread.
+// `logs`, if given, receives every ray, in order, of each thread. `guidance` must be of the same parameters.
 ReferenceResult compute_reference(const Tracer& tracer, const ReferenceParameters& parameters,
-                                  std::vector<RayLog>* logs = nullptr);
+                                  std::vector<RayLog>* logs = nullptr, const Guidance* guidance = nullptr);
 ReferenceResult compute_reference(const Scene& scene, const ReferenceParameters& parameters);
 
 }  // namespace vsglbench

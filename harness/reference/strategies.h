@@ -61,6 +61,8 @@ class Strategies {
   static constexpr uint32_t most_pool_bits = 10;
 
   LightGuide& guide() { return guide_; }
+  const LightGuide& photon_guide() const { return photon_guide_; }
+  void follow(const Guidance& guidance) { guide_ = guidance.light, photon_guide_ = guidance.photons; }
 
   // `light` and `receiver` for the pixels of one tile of the guide in one batch: writes each one's part of
   // the radiance to estimate[pixel], 0 where there is no surface, and teaches the guide if asked to.

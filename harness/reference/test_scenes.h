@@ -1,9 +1,11 @@
 // Small scenes for this room's tests, made of quads; nothing from a file.
 #pragma once
 
+#include "scene/animation.h"
 #include "scene/check.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
+#include "scene/shapes.h"
 
 namespace vsglbench::test {
 
@@ -100,6 +102,30 @@ inline Scene slab_box(const Material& slab = lambert({0.5f, 0.5f, 0.6f})) {
       quads, {lambert({0.7f, 0.7f, 0.7f}), lambert({0.6f, 0.1f, 0.1f}), lambert({0.1f, 0.5f, 0.1f}), slab},
       spot({0.5f, 0.95f, 0.6f}, {0.3f, -1, -0.3f}, 0.9f),
       camera_at({0.3f, 0.5f, 0.95f}, {0.5f, 0.4f, 0}, 1.0f));
+}
+
+// The empty room and a ring in it that rests in frame 0, moves and turns, and is back in the last frame but
+// one.
+inline Scene ring_box(uint32_t frames = 8) {
+  Scene scene = empty_box();
+  scene.animation.frames = frames;
+  scene.animation.rate = 1;
+  MovingNode node;
+  node.name = "ring";
+  const double back = frames - 2.0;
+  node.translation.times = {0, back / 3, back / 1.5, back};
+  node.translation.values = {{0.3, 0.3, 0.4}, {0.5, 0.4, 0.4}, {0.7, 0.2, 0.3}, {0.3, 0.3, 0.4}};
+  node.rotation.times = {0, back / 2, back};
+  node.rotation.values = {{1, 0, 0, 0}, {0.6, 0, 0.64, 0.48}, {1, 0, 0, 0}};
+  scene.animation.nodes.push_back(node);
+  Mesh mesh;
+  add_torus(&mesh, 0.12, 0.04, 157, 7);
+  scene.materials.push_back(lambert({0.8f, 0.5f, 0.2f}));
+  add_object(&scene, {.name = "ring"}, std::move(mesh), static_cast<uint32_t>(scene.materials.size() - 1));
+  measure_motion(&scene);
+  check_scene(scene);
+  scene.hash = scene_hash(scene);
+  return scene;
 }
 
 }  // namespace vsglbench::test

@@ -1,47 +1,38 @@
 // Rays against the scene's triangles (Embree 3): closest hit, occlusion of a segment, packets.
 #pragma once
 
-#include <embree3/rtcore.h>
-
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "reference/ray_tree.h"
 #include "scene/scene.h"
 
 namespace vsglbench {
 
-struct Hit {
-  float distance = 0;        // in units of |direction|
-  uint32_t triangle = 0;     // index into Scene::triangles
-  glm::vec2 barycentric{0};  // weights of the triangle's second and third vertex
-  glm::vec3 face_normal{0};  // of any length, on either side
-};
-
-// 16 segments, structure of arrays: origin + t direction for t in [0, end]. A lane with end < 0 is off.
-struct alignas(64) SegmentPacket {
-  static constexpr int width = 16;
-  float origin[3][width], direction[3][width], end[width];
-};
-
 class Tracer {
  public:
   // Builds the acceleration structure; keeps a reference to `scene`, which must not change while the
-  // tracer lives. Alpha-masked texels are holes for every ray. `device_config` is Embree's own
-  // configuration string (tests force an instruction set with it). Throws Error(scene).
+  // tracer lives but by set_frame(), after which update() is due. Alpha-masked texels are holes for every
+  // ray. `device_config` is Embree's own configuration string (tests force an instruction set with it).
+  // Throws Error(scene).
   explicit Tracer(const Scene& scene, const std::string& device_config = "");
   explicit Tracer(Scene&&, const std::string& = "") = delete;
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
+  // Takes over what set_frame() moved. The tree over what stands still stays as it is; that over the moving
+  // objects is refitted. Every hit is then that of a new tracer of the same pose, to the bit, but that a ray
+  // which meets an edge between triangles of an object may be given to either. Error(scene).
+  void update(const Moved& moved);
+
   const Scene& scene() const { return scene_; }
-  RTCScene handle() const { return rtc_.get(); }
+  // Of what stands still.
+  RTCScene handle() const { return still_->handle(); }
 
   // The closest triangle along origin + t direction, `start` < t <= `end`.
   std::optional<Hit> intersect(const glm::vec3& origin, const glm::vec3& direction, float start = 0,
@@ -64,21 +55,17 @@ class Tracer {
   float epsilon(const glm::vec3& point) const;
 
  private:
-  struct Group;  // triangles of one Embree geometry: opaque, or tested against their alpha
-  void attach(Group& group);
+  void check_embree(const char* what) const;
 
   struct Release {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
 
   const Scene& scene_;
   std::unique_ptr<RTCDeviceTy, Release> device_;
-  std::unique_ptr<RTCSceneTy, Release> rtc_;
+  std::unique_ptr<RayTree> still_, moving_;  // moving_: nothing where no object moves
   int native_width_ = 1;
   float least_extent_ = 0;
-  bool all_opaque_ = true;                        // Embree's indices are the scene's
-  std::array<std::unique_ptr<Group>, 2> groups_;  // by Embree's geometry id: opaque, alpha-tested
 };
 
 }  // namespace vsglbench

@@ -11,8 +11,6 @@
 namespace vsglbench {
 namespace {
 
-using test::Quad;
-
 TEST(Tracer, FindsTheClosestTriangle) {
   const Scene scene = test::empty_box();
   const Tracer tracer(scene);
@@ -113,6 +111,77 @@ TEST(Tracer, OffsetLeavesTheSurfaceButNotTheScene) {
         EXPECT_LT(glm::distance(start, p), 1e-4 * scale * (1 + shift));
       }
     }
+  }
+}
+
+// Random rays and packets by both; how many hit an object.
+int expect_equal(const Tracer& a, const Tracer& b, uint64_t seed) {
+  int on_objects = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const glm::vec3 from = glm::vec3(random4(seed, Stream::light, 0, i)) - 0.5f;
+    const glm::vec3 to = glm::vec3(random4(seed, Stream::pool, 0, i)) - 0.5f;
+    const auto hit = a.intersect(from, to - from), other = b.intersect(from, to - from);
+    EXPECT_EQ(hit.has_value(), other.has_value());
+    if (hit && other) {
+      EXPECT_EQ(hit->distance, other->distance);
+      EXPECT_EQ(hit->triangle, other->triangle);
+      EXPECT_EQ(hit->barycentric, other->barycentric);
+      EXPECT_EQ(hit->face_normal, other->face_normal);
+      on_objects += hit->triangle >= still_triangles(a.scene());
+    }
+    EXPECT_EQ(a.occluded(from, to), b.occluded(from, to));
+  }
+  for (uint32_t p = 0; p < 500; ++p) {
+    SegmentPacket packet;
+    for (uint32_t i = 0; i < 16; ++i) {
+      const glm::vec3 from = glm::vec3(random4(seed, Stream::light, 1, 16 * p + i)) - 0.5f;
+      const glm::vec3 to = glm::vec3(random4(seed, Stream::pool, 1, 16 * p + i)) - 0.5f;
+      for (int c = 0; c < 3; ++c) packet.origin[c][i] = from[c], packet.direction[c][i] = to[c] - from[c];
+      packet.end[i] = i % 5 == 4 ? -1 : 1;
+    }
+    EXPECT_EQ(a.occluded(packet), b.occluded(packet));
+  }
+  return on_objects;
+}
+
+// To the bit, frame after frame and there and back: a new tracer's hits, and those of a tracer for which
+// nothing moves, whose one tree holds all triangles.
+TEST(Tracer, RefittedIsAsGoodAsNew) {
+  for (const char* isa : {"", "isa=avx2", "isa=sse2"}) {
+    Scene scene = test::ring_box();
+    Tracer refitted(scene, isa);
+    for (const uint32_t frame : {0u, 1u, 2u, 5u, 3u, 7u, 0u, 4u}) {
+      refitted.update(set_frame(&scene, frame));
+      const Tracer anew(scene, isa);
+      Scene frozen = scene;
+      frozen.animation = {};
+      const Tracer one_tree(frozen, isa);
+      EXPECT_GT(expect_equal(refitted, anew, frame + 1), 300) << isa << " " << frame;
+      expect_equal(refitted, one_tree, frame + 1);
+    }
+  }
+}
+
+TEST(Tracer, AMovingObjectHasItsHoles) {
+  Scene scene = card();
+  scene.animation.frames = 2;
+  scene.animation.rate = 1;
+  MovingNode node;
+  node.translation.times = {0, 1};
+  node.translation.values = {{0, 1.5, 0}, {0, 1.6, 0.5}};
+  scene.animation.nodes.push_back(node);
+  add_object(&scene, {.name = "card"}, test::quad_mesh({{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, 1}), 1);
+  measure_motion(&scene);
+  Tracer tracer(scene);
+  for (uint32_t frame = 0; frame < 2; ++frame) {
+    tracer.update(set_frame(&scene, frame));
+    const float top = scene.bounds_max.y + 1;
+    const auto through = tracer.intersect({-0.5f, top, 0.1f}, {0, -1, 0});
+    const auto stopped = tracer.intersect({0.5f, top, 0.1f}, {0, -1, 0});
+    ASSERT_TRUE(through && stopped);
+    EXPECT_EQ(through->triangle / 2, 0u);  // the floor
+    EXPECT_EQ(stopped->triangle / 2, 2u);  // the moving card
+    EXPECT_NEAR(stopped->distance, frame == 0 ? 1.1f : 1, 1e-5f);
   }
 }
 

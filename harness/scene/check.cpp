@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "scene/motion_check.h"
 
 namespace vsglbench {
 namespace {
@@ -114,6 +115,7 @@ void check_scene(const Scene& scene) {
   check_triangles(scene);
   check_materials(scene);
   check_light_and_camera(scene);
+  check_motion(scene);
 }
 
 std::string scene_hash(const Scene& scene) {
@@ -134,7 +136,9 @@ std::string scene_hash(const Scene& scene) {
   };
   const Light& l = scene.light;
   h.value(l.type);
-  vector(l.position), vector(l.direction), vector(l.up), vector(l.half_extent), vector(l.power);
+  // How far a sun is moved back says how far objects get in other frames.
+  vector(scene.animation.sun_place.value_or(l.position)), vector(l.direction), vector(l.up),
+      vector(l.half_extent), vector(l.power);
   h.value(l.fov);
   const Camera& c = scene.camera;
   vector(c.position), vector(c.direction), vector(c.up);

@@ -2,104 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "scene/animation.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_material.h"
+#include "scene/gltf_nodes.h"
 #include "scene/mesh.h"
 
 namespace vsglbench {
 namespace {
 
 constexpr size_t kMostVertices = 100'000'000;  // of all instances together
+constexpr double kLargestLength = 1e18;        // metres
 
 // Where a primitive is, for messages.
 std::string primitive_name(const tinygltf::Mesh& mesh, int mesh_index, size_t primitive) {
   return fmt::format("mesh {}{} primitive {}", mesh_index, mesh.name.empty() ? "" : " '" + mesh.name + "'",
                      primitive);
 }
-
-// --- Nodes --------------------------------------------------------------------------------------------
-
-glm::dmat4 local_transform(const GltfFile& file, const tinygltf::Node& node, int index) {
-  const auto numbers = [&](const std::vector<double>& v, size_t count, const char* key) {
-    if (!v.empty() && v.size() != count) {
-      throw file.error("node {}: {} has {} numbers instead of {}", index, key, v.size(), count);
-    }
-    return !v.empty();
-  };
-  glm::dmat4 m(1);
-  if (numbers(node.matrix, 16, "matrix")) {
-    for (int k = 0; k < 16; ++k) m[k / 4][k % 4] = node.matrix[static_cast<size_t>(k)];
-  } else {
-    if (numbers(node.translation, 3, "translation")) {
-      m = glm::translate(m, {node.translation[0], node.translation[1], node.translation[2]});
-    }
-    if (numbers(node.rotation, 4, "rotation")) {
-      const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-      if (!(glm::length(q) > 0)) throw file.error("node {}: rotation is the zero quaternion", index);
-      m *= glm::mat4_cast(glm::normalize(q));
-    }
-    if (numbers(node.scale, 3, "scale")) m = glm::scale(m, {node.scale[0], node.scale[1], node.scale[2]});
-  }
-  for (int k = 0; k < 16; ++k) {
-    if (!std::isfinite(m[k / 4][k % 4])) throw file.error("node {}: its transform is not finite", index);
-  }
-  return m;
-}
-
-std::vector<int> root_nodes(const GltfFile& file) {
-  const tinygltf::Model& model = file.model;
-  if (!model.scenes.empty()) {
-    return element(file, model.scenes, model.defaultScene < 0 ? 0 : model.defaultScene, "default scene")
-        .nodes;
-  }
-  std::vector<bool> is_child(model.nodes.size(), false);
-  for (const auto& node : model.nodes) {
-    for (const int child : node.children) {
-      element(file, model.nodes, child, "child node");
-      is_child[static_cast<size_t>(child)] = true;
-    }
-  }
-  std::vector<int> roots;
-  for (size_t i = 0; i < is_child.size(); ++i) {
-    if (!is_child[i]) roots.push_back(static_cast<int>(i));
-  }
-  return roots;
-}
-
-struct Instance {
-  int mesh;
-  glm::dmat4 transform;
-};
-
-// All meshes of the hierarchy with their world transforms, in depth-first order. A node that is reached twice
-// (a cycle, or two parents) is an error.
-std::vector<Instance> instances(const GltfFile& file) {
-  std::vector<Instance> out;
-  std::vector<bool> visited(file.model.nodes.size(), false);
-  std::vector<std::pair<int, glm::dmat4>> open;
-  const auto push = [&open](const std::vector<int>& nodes, const glm::dmat4& parent) {
-    for (auto it = nodes.rbegin(); it != nodes.rend(); ++it) open.emplace_back(*it, parent);
-  };
-  push(root_nodes(file), glm::dmat4(1));
-  while (!open.empty()) {
-    const auto [index, parent] = open.back();
-    open.pop_back();
-    const auto& node = element(file, file.model.nodes, index, "node");
-    if (visited[static_cast<size_t>(index)])
-      throw file.error("node {}: is in a cycle or has two parents", index);
-    visited[static_cast<size_t>(index)] = true;
-    const glm::dmat4 world = parent * local_transform(file, node, index);
-    if (node.mesh >= 0) out.push_back({node.mesh, world});
-    push(node.children, world);
-  }
-  return out;
-}
-
-// --- Primitives -----------------------------------------------------------------------------------------
 
 // Vertex indices of the triangles of a list, strip or fan (glTF 2.0, 3.7.2.1).
 std::vector<glm::uvec3> triangles_of(const GltfFile& file, const std::vector<uint32_t>& v, int mode,
@@ -237,65 +158,112 @@ std::optional<Primitive> read_primitive(GltfFile* file, const tinygltf::Primitiv
   return to;
 }
 
-// Positions by M; normals by its inverse transpose (as cofactors, so that a flattening M is no division by
-// 0); a mirroring M turns winding and handedness over.
+void turn_over(Mesh* mesh) {
+  for (glm::uvec3& t : mesh->triangles) std::swap(t.y, t.z);
+}
+
+// In world space and metres.
 Mesh transformed(Mesh mesh, const glm::dmat4& m, double unit_scale) {
-  const glm::dmat3 linear(m);
-  const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                            glm::cross(linear[0], linear[1]));
-  const bool mirrored = glm::determinant(linear) < 0;
-  for (glm::dvec3& p : mesh.positions) p = unit_scale * glm::dvec3(m * glm::dvec4(p, 1));
-  for (glm::vec3& n : mesh.normals) {
-    const glm::dvec3 v = (mirrored ? -1.0 : 1.0) * (cofactor * glm::dvec3(n));
-    const double length = glm::length(v);
-    if (length > 0) n = glm::vec3(v / length);
-  }
+  const Placement place(m);
+  for (glm::dvec3& p : mesh.positions) p = unit_scale * place.point(p);
+  for (glm::vec3& n : mesh.normals) n = place.normal(n);
   for (size_t i = 0; i < mesh.tangents.size(); ++i) {
-    // Orthogonal to the new normal; an arbitrary frame where nothing is left of it.
-    const glm::dvec3 n(mesh.normals[i]), t = linear * glm::dvec3(mesh.tangents[i]);
-    const glm::dvec3 flat = t - n * glm::dot(n, t);
-    const float w = (mirrored ? -1.0f : 1.0f) * mesh.tangents[i].w;
-    const bool usable = glm::length(flat) > 1e-6 * glm::length(t);
-    mesh.tangents[i] =
-        glm::vec4(usable ? glm::vec3(glm::normalize(flat)) : any_orthogonal(mesh.normals[i]), w);
+    mesh.tangents[i] = place.tangent(mesh.tangents[i], mesh.normals[i]);
   }
-  if (mirrored) {
-    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-  }
+  if (place.mirrors()) turn_over(&mesh);
   return mesh;
 }
 
 void check_transformed(const GltfFile& file, const Mesh& mesh, const std::string& what) {
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const double size = glm::length(mesh.positions[i]);
-    if (!(size < 1e18)) throw file.error("{}: vertex {} lies {} metres off", what, i, size);
+    if (!(size < kLargestLength)) throw file.error("{}: vertex {} lies {} metres off", what, i, size);
   }
 }
+
+// What stands still joins the scene at once; what moves waits until the origin is known.
+class Loader {
+ public:
+  Loader(GltfFile* file, double unit_scale, Scene* scene)
+      : file_(*file), unit_scale_(unit_scale), scene_(scene), collector_(scene) {}
+
+  void add(const GltfInstance& instance) {
+    const auto& mesh = element(file_, file_.model.meshes, instance.mesh, "mesh");
+    for (size_t i = 0; i < mesh.primitives.size(); ++i) {
+      const std::string what = primitive_name(mesh, instance.mesh, i);
+      std::optional<Primitive> primitive = read_primitive(&file_, mesh.primitives[i], what);
+      if (!primitive) continue;
+      vertices_ += primitive->mesh.positions.size();
+      if (vertices_ > kMostVertices) throw file_.error("more than {} vertices", kMostVertices);
+      if (instance.node) {
+        moving_.push_back({*instance.node, *std::move(primitive)});
+      } else {
+        Mesh world = transformed(std::move(primitive->mesh), instance.transform, unit_scale_);
+        check_transformed(file_, world, what);
+        collector_.add(std::move(world), primitive->material);
+      }
+    }
+  }
+
+  void finish() {
+    collector_.finish();
+    try {
+      add_moving();
+      measure_motion(scene_);
+    } catch (const Error& e) {
+      throw file_.error("{}", e.what());
+    }
+  }
+
+ private:
+  struct Moving {
+    uint32_t node;
+    Primitive primitive;
+  };
+
+  void add_moving() {
+    const std::vector<glm::dmat4> worlds = world_transforms(scene_->animation, 0);
+    // Where nothing stands still, the origin is the centre of the first frame.
+    if (scene_->triangles.empty()) scene_->origin = centre_of_moving(worlds);
+    for (Moving& m : moving_) {
+      if (Placement(worlds[m.node]).mirrors()) turn_over(&m.primitive.mesh);
+      add_object(scene_, {.name = scene_->animation.nodes[m.node].name, .node = m.node, .unit = unit_scale_},
+                 std::move(m.primitive.mesh), m.primitive.material);
+    }
+  }
+
+  glm::dvec3 centre_of_moving(const std::vector<glm::dmat4>& worlds) const {
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (const Moving& m : moving_) {
+      const Placement place(worlds[m.node]);
+      for (const glm::dvec3& p : m.primitive.mesh.positions) {
+        const glm::dvec3 world = unit_scale_ * place.point(p) + scene_->offset;
+        low = glm::min(low, world);
+        high = glm::max(high, world);
+      }
+    }
+    const glm::dvec3 centre = 0.5 * (low + high);
+    return glm::length(centre) < kLargestLength ? centre : glm::dvec3(0);
+  }
+
+  GltfFile& file_;
+  double unit_scale_;
+  Scene* scene_;
+  MeshCollector collector_;
+  std::vector<Moving> moving_;
+  size_t vertices_ = 0;
+};
 
 }  // namespace
 
 void load_gltf(const std::filesystem::path& path, double unit_scale, Scene* scene) {
   GltfFile file = read_gltf(path);
-  const tinygltf::Model& model = file.model;
   load_materials(&file, scene);
-  MeshCollector collector(scene);
-  size_t vertices = 0;
-  for (const Instance& instance : instances(file)) {
-    const auto& mesh = element(file, model.meshes, instance.mesh, "mesh");
-    for (size_t i = 0; i < mesh.primitives.size(); ++i) {
-      const std::string what = primitive_name(mesh, instance.mesh, i);
-      std::optional<Primitive> primitive = read_primitive(&file, mesh.primitives[i], what);
-      if (!primitive) continue;
-      vertices += primitive->mesh.positions.size();
-      if (vertices > kMostVertices) throw file.error("more than {} vertices", kMostVertices);
-      Mesh world = transformed(std::move(primitive->mesh), instance.transform, unit_scale);
-      check_transformed(file, world, what);
-      collector.add(std::move(world), primitive->material);
-    }
-  }
-  if (scene->triangles.empty()) throw file.error("no triangles in its scene");
+  Loader loader(&file, unit_scale, scene);
+  for (const GltfInstance& instance : gltf_instances(&file, &scene->animation)) loader.add(instance);
   scene->warnings.insert(scene->warnings.end(), file.warnings.begin(), file.warnings.end());
-  collector.finish();
+  loader.finish();
+  if (scene->triangles.empty()) throw file.error("no triangles in its scene");
 }
 
 }  // namespace vsglbench

@@ -9,6 +9,8 @@ namespace vsglbench {
 
 // Fills geometry, materials, textures and warnings of `scene`; positions are multiplied by `unit_scale`
 // (metres per file unit) and rebased to the centre of their bounds, which becomes scene->origin.
+// Where scene->animation has frames, the file's animations of nodes are read, too, and what they move becomes
+// moving objects; the origin and the bounds' centre are then those of what stands still.
 //
 // Read: the default scene (or, where the file names none, its first; without scenes, all root nodes) with
 // its node hierarchy, transformed in double; triangles, strips and fans; indices of any type or none; sparse

@@ -72,6 +72,27 @@ glm::vec3 any_orthogonal(const glm::vec3& n) {
   return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
 }
 
+Placement::Placement(const glm::dmat4& m)
+    : m_(m),
+      linear_(m),
+      cofactor_(glm::cross(linear_[1], linear_[2]), glm::cross(linear_[2], linear_[0]),
+                glm::cross(linear_[0], linear_[1])),
+      mirrors_(glm::determinant(linear_) < 0) {}
+
+glm::vec3 Placement::normal(const glm::vec3& n) const {
+  const glm::dvec3 v = (mirrors_ ? -1.0 : 1.0) * (cofactor_ * glm::dvec3(n));
+  const double length = glm::length(v);
+  return length > 0 ? glm::vec3(v / length) : n;
+}
+
+glm::vec4 Placement::tangent(const glm::vec4& tangent, const glm::vec3& new_normal) const {
+  const glm::dvec3 n(new_normal), t = linear_ * glm::dvec3(tangent);
+  const glm::dvec3 flat = t - n * glm::dot(n, t);
+  const bool usable = glm::length(flat) > 1e-6 * glm::length(t);
+  return glm::vec4(usable ? glm::vec3(glm::normalize(flat)) : any_orthogonal(new_normal),
+                   (mirrors_ ? -1.0f : 1.0f) * tangent.w);
+}
+
 void MeshCollector::add(Mesh mesh, uint32_t material) {
   if (mesh.tangents.empty()) make_tangents(&mesh);
   const uint32_t first_vertex = static_cast<uint32_t>(positions_.size());

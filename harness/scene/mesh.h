@@ -32,6 +32,24 @@ bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 // Revisited").
 glm::vec3 any_orthogonal(const glm::vec3& n);
 
+// An affine transform of vertices. Positions go by M; normals by its inverse transpose (as cofactors, so that
+// a flattening M is no division by 0, and they stay as they are where nothing is left); tangents by M, made
+// orthogonal to the new normal, or an arbitrary frame where nothing is left. A mirroring M turns handedness
+// over, and outside would be inside but for the winding, which is left to the caller.
+class Placement {
+ public:
+  explicit Placement(const glm::dmat4& m);
+  bool mirrors() const { return mirrors_; }
+  glm::dvec3 point(const glm::dvec3& p) const { return glm::dvec3(m_ * glm::dvec4(p, 1)); }
+  glm::vec3 normal(const glm::vec3& n) const;
+  glm::vec4 tangent(const glm::vec4& t, const glm::vec3& new_normal) const;
+
+ private:
+  glm::dmat4 m_;
+  glm::dmat3 linear_, cofactor_;
+  bool mirrors_;
+};
+
 // Collects meshes in double precision, moved by scene->offset, then writes them into a scene as float offsets
 // from the bounds' centre.
 class MeshCollector {

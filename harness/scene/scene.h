@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/motion.h"
+
 namespace vsglbench {
 
 // 8-bit RGBA, row-major, first row first. `srgb`: RGB is sRGB-encoded (decode each texel, then filter).
@@ -78,11 +80,12 @@ struct Scene {
   std::vector<uint32_t> triangle_material;  // one a triangle
   std::vector<Material> materials;
   std::vector<Texture> textures;
-  glm::vec3 bounds_min{0}, bounds_max{0};
+  glm::vec3 bounds_min{0}, bounds_max{0};  // of all frames
   Light light;
   Camera camera;
+  Animation animation;                // how the above moves; set_frame() poses it
   std::vector<std::string> warnings;  // what was ignored or repaired, one line each
-  std::string hash;                   // content hash of everything above that determines radiance
+  std::string hash;                   // content hash of what determines radiance in the present frame
 
   float diagonal() const { return glm::length(bounds_max - bounds_min); }
 };

@@ -10,6 +10,7 @@
 #include "scene/builders.h"
 #include "scene/check.h"
 #include "scene/gltf.h"
+#include "scene/scene_objects.h"
 #include "scene/scene_view.h"
 
 namespace fs = std::filesystem;
@@ -183,9 +184,15 @@ Scene load_scene(const std::string& name_or_path, const SceneOptions& options) {
   if (root.contains("offset")) {
     for (int k = 0; k < 3; ++k) scene.offset[k] = unit * root["offset"][k].get<double>();
   }
+  if (root.contains("animation")) {
+    scene.animation.frames = options.frames > 0 ? options.frames : root["animation"].value("frames", 16u);
+    scene.animation.rate = root["animation"].value("rate", scene.animation.rate);
+  }
+  const double view_unit = root.value("view_unit", unit);
   load_geometry(document, options, unit, &scene);
   apply_overrides(document, &scene);
-  apply_view(document, "/views/" + pointer_token(view), root.value("view_unit", unit), &scene);
+  add_objects(document, view_unit, &scene);
+  apply_view(document, "/views/" + pointer_token(view), view_unit, &scene);
   check_scene(scene);
   scene.hash = scene_hash(scene);
   return scene;

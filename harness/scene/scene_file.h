@@ -14,6 +14,7 @@ namespace vsglbench {
 struct SceneOptions {
   std::filesystem::path scenes_dir;  // holds NAME/scene.json
   std::filesystem::path assets_dir;  // where downloaded geometry lies; may be empty
+  uint32_t frames = 0;               // of a scene with `animation`, in place of its own number; 0: its own
 };
 
 // "colonnade:cut" in its parts: a colon after the last slash parts the view off.
@@ -27,9 +28,9 @@ SceneName parse_scene_name(const std::string& text);
 bool is_path(const std::string& name);
 
 // `name_or_path`: "sponza", or a scene.json or its folder (anything with a '/' or ending in .json); either
-// may end in ":VIEW". Without one the scene's default view. The scene comes checked (check_scene) and hashed.
-// Throws Error(asset_missing) for geometry that isn't on this machine, which says which file and where to get
-// it; Error(scene) "FILE:LINE: ...".
+// may end in ":VIEW". Without one the scene's default view. The scene comes checked (check_scene), hashed,
+// and in frame 0; set_frame() poses it in others. Throws Error(asset_missing) for geometry that isn't on this
+// machine, which says which file and where to get it; Error(scene) "FILE:LINE: ...".
 Scene load_scene(const std::string& name_or_path, const SceneOptions& options);
 
 // What a list of scenes shows, read without loading geometry.

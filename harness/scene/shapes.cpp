@@ -89,6 +89,28 @@ void add_lathe(Mesh* mesh, const glm::dvec3& base, std::span<const glm::dvec2> p
   }
 }
 
+void add_torus(Mesh* mesh, double major, double minor, int segments, int sides) {
+  const uint32_t first = static_cast<uint32_t>(mesh->positions.size());
+  for (int i = 0; i <= segments; ++i) {
+    const double round = 2 * std::numbers::pi * (i % segments) / segments;
+    const glm::dvec3 out(std::sin(round), 0, std::cos(round));
+    for (int j = 0; j <= sides; ++j) {
+      const double angle = 2 * std::numbers::pi * (j % sides) / sides;
+      const glm::dvec3 normal = std::cos(angle) * out + glm::dvec3(0, std::sin(angle), 0);
+      mesh->add_vertex(major * out + minor * normal, glm::vec3(normal),
+                       glm::vec2(double(i) / segments, -double(j) / sides));
+    }
+  }
+  const uint32_t row = static_cast<uint32_t>(sides) + 1;
+  for (uint32_t i = 0; i < static_cast<uint32_t>(segments); ++i) {
+    for (uint32_t j = 0; j + 1 < row; ++j) {
+      const uint32_t a = first + i * row + j, b = a + row, c = a + 1, d = b + 1;
+      mesh->triangles.emplace_back(a, b, d);
+      mesh->triangles.emplace_back(a, d, c);
+    }
+  }
+}
+
 void place(const Mesh& part, int quarter_turns, const glm::dvec3& offset, Mesh* mesh) {
   const uint32_t first = static_cast<uint32_t>(mesh->positions.size());
   const auto turn = [quarter_turns](auto v) {

@@ -22,6 +22,11 @@ void add_box(Mesh* mesh, const glm::dvec3& low, const glm::dvec3& high, double t
 void add_lathe(Mesh* mesh, const glm::dvec3& base, std::span<const glm::dvec2> profile, int segments,
                double tile);
 
+// A ring round the origin in the plane y = 0: a tube of radius `minor`, of `sides` sides, along a circle of
+// radius `major`, of `segments` segments; 2 * segments * sides triangles. u runs once round the ring, v once
+// round the tube.
+void add_torus(Mesh* mesh, double major, double minor, int segments, int sides);
+
 // Appends `part`, turned about the vertical axis by quarter turns (x to -z) and moved.
 void place(const Mesh& part, int quarter_turns, const glm::dvec3& offset, Mesh* mesh);
 

@@ -1,0 +1,24 @@
+// The node hierarchy of a glTF file.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/gltf_file.h"
+#include "scene/motion.h"
+
+namespace vsglbench {
+
+struct GltfInstance {
+  int mesh;
+  glm::dmat4 transform;          // to world space, of what stands still
+  std::optional<uint32_t> node;  // of Animation::nodes: what moves
+};
+
+// All meshes of the default scene's hierarchy (gltf.h says which that is) in depth-first order. A node that
+// is reached twice (a cycle, or two parents) is an error. Where `animation` has frames, nodes that the file
+// animates and all below them are added to its nodes; a skin that they move is an error, since skins are not
+// read. Without frames nothing moves, and a warning says so.
+std::vector<GltfInstance> gltf_instances(GltfFile* file, Animation* animation);
+
+}  // namespace vsglbench

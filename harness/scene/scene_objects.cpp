@@ -1,0 +1,92 @@
+#include "scene/scene_objects.h"
+
+#include <cmath>
+#include <set>
+
+#include "scene/animation.h"
+#include "scene/scene_keys.h"
+#include "scene/shapes.h"
+
+namespace vsglbench {
+namespace {
+
+const Json& value(const JsonDocument& document, const std::string& at) {
+  return document.root().at(Json::json_pointer(at));
+}
+
+glm::dvec3 vector(const Json& v) { return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()}; }
+
+glm::dquat quaternion(const JsonDocument& document, const std::string& at) {
+  const Json& v = value(document, at);
+  const glm::dquat q(v[3].get<double>(), v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+  if (!(glm::length(q) > 0 && std::isfinite(glm::length(q)))) throw document.error(at, "has no length");
+  return q;
+}
+
+MovingNode read_node(const JsonDocument& document, const std::string& at) {
+  const Json& json = value(document, at);
+  const KeyList keys(document, at);
+  const auto read_vector = [&](const std::string& p) { return vector(value(document, p)); };
+  const auto read_scale = [&](const std::string& p) {
+    const Json& v = value(document, p);
+    return v.is_number() ? glm::dvec3(v.get<double>()) : vector(v);
+  };
+  const auto read_rotation = [&](const std::string& p) { return quaternion(document, p); };
+  const auto constant = [&](const char* key, auto standard, const auto& read) {
+    return json.contains(key) ? read(at + "/" + key) : standard;
+  };
+  MovingNode node;
+  node.name = json.at("name").get<std::string>();
+  node.translation =
+      keys.track("translation", constant("translation", glm::dvec3(0), read_vector), read_vector);
+  node.rotation =
+      keys.track("rotation", constant("rotation", glm::dquat(1, 0, 0, 0), read_rotation), read_rotation);
+  node.scale = keys.track("scale", constant("scale", glm::dvec3(1), read_scale), read_scale);
+  return node;
+}
+
+Material read_material(const Json& json, const std::string& name) {
+  Material m;
+  m.name = "object " + name;
+  if (json.contains("base_color")) m.base_color = glm::vec4(glm::vec3(vector(json["base_color"])), 1);
+  m.metallic = json.value("metallic", m.metallic);
+  m.roughness = json.value("roughness", m.roughness);
+  m.phong_exponent = json.value("phong_exponent", m.phong_exponent);
+  m.specular = json.value("specular", m.specular);
+  return m;
+}
+
+Mesh read_torus(const JsonDocument& document, const std::string& at) {
+  const Json& json = value(document, at);
+  const double major = json.at("major").get<double>(), minor = json.at("minor").get<double>();
+  if (!(minor < major))
+    throw document.error(at + "/minor", fmt::format("must be less than 'major', {}", major));
+  Mesh mesh;
+  add_torus(&mesh, major, minor, json.value("segments", 64), json.value("sides", 16));
+  return mesh;
+}
+
+}  // namespace
+
+void add_objects(const JsonDocument& document, double unit, Scene* scene) {
+  const Json list = document.root().value("objects", Json::array());
+  std::set<std::string> names;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const std::string at = fmt::format("/objects/{}", i), name = list[i].at("name").get<std::string>();
+    if (!names.insert(name).second) throw document.error(at + "/name", "stands twice");
+    MovingNode node = read_node(document, at);
+    Mesh mesh = read_torus(document, at + "/torus");
+    scene->materials.push_back(read_material(list[i].value("material", Json::object()), name));
+    scene->animation.nodes.push_back(std::move(node));
+    add_object(scene,
+               {.name = name, .node = static_cast<uint32_t>(scene->animation.nodes.size() - 1), .unit = unit},
+               std::move(mesh), static_cast<uint32_t>(scene->materials.size() - 1));
+  }
+  try {
+    if (!list.empty()) measure_motion(scene);
+  } catch (const Error& e) {
+    throw document.error("/objects", e.what());
+  }
+}
+
+}  // namespace vsglbench
