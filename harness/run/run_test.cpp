@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 
 #include "base/error.h"
 #include "image/exr.h"
@@ -230,6 +232,56 @@ TEST_F(RunTest, ADamagedReportIsKeptAside) {
   write_text(out_ / "report.json", "{\"schema\": \"vsgl");
   EXPECT_EQ(run().exit_code, 0);
   EXPECT_EQ(read_text(out_ / "report.damaged.json"), "{\"schema\": \"vsgl");
+}
+
+// A run that has not saved a scene yet has nothing but its journal.
+TEST_F(RunTest, AJournalThatIsNotGoneOnWithIsKeptAside) {
+  const fs::path journal = out_ / "report.journal";
+  const auto interrupted = [&] {
+    RunOptions options;
+    options.config = write_config();
+    options.out = out_;
+    options.argv = {"vsglbench", "run"};
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      options.sabotage = [parent = ::getpid()](const Activity& a) {
+        if (a.action == "frame 2") ::kill(parent, SIGKILL);
+      };
+      ::_exit(run_config(options).exit_code);
+    }
+    int status = 0;
+    ::waitpid(pid, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    ASSERT_FALSE(fs::exists(out_ / "report.json"));
+  };
+  interrupted();
+  const std::string text = read_text(journal), header = text.substr(0, text.find('\n'));
+  ASSERT_GT(text.size(), header.size() + 1);
+
+  config_["rsm"] = 8;
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(run().exit_code, 0);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(contains(said,
+                       "report.journal: of a run that is not gone on with; it is kept as "
+                       "report.incomplete.journal"));
+  EXPECT_EQ(read_text(out_ / "report.incomplete.journal"), text);
+
+  // Put back, it is gone on with.
+  config_["rsm"] = 16;
+  fs::rename(out_ / "report.incomplete.journal", journal);
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(report().created, report_from_json(Json::parse(header)["about"]).created);
+  EXPECT_FALSE(fs::exists(journal));
+  EXPECT_FALSE(fs::exists(out_ / "report.incomplete.journal"));
+
+  const std::string damaged = text.substr(header.size() / 2);
+  write_text(journal, damaged);
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_TRUE(contains(::testing::internal::GetCapturedStderr(),
+                       "report.journal: its first line is damaged; it is kept as report.damaged.journal"));
+  EXPECT_EQ(read_text(out_ / "report.damaged.journal"), damaged);
 }
 
 TEST_F(RunTest, OnlyTakesAGlobOverIds) {
