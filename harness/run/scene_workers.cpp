@@ -243,11 +243,24 @@ class SceneWatch {
     if (end.kind == ErrorKind::device) log_.device_gone = one_line(end.how);
     const bool of_case = end.task.job && *end.task.job < jobs_.cases.size();
     log_warning("{}: {}", of_case ? jobs_.cases[*end.task.job].id : scene_, message_of(end));
+    if (!of_case) warn(end);
   }
 
  private:
   static std::string message_of(const End& end) {
     return fmt::format("{} during {}", one_line(end.how), end.task.action);
+  }
+
+  // In the report: no case tells of this end, unless it has cost all that were left.
+  void warn(const End& end) {
+    if (!outcome_.scene) return;
+    SceneNews news;
+    news.scene = outcome_.scene;
+    news.scene->warnings.push_back(fmt::format("a worker process ended at no case's fault{}: {}",
+                                               end.task.job == jobs_.twin() ? ", and with it the A/A pair" : "",
+                                               message_of(end)));
+    add(news, &outcome_);
+    noted_(to_json(news));
   }
 
   const std::string& scene_;
