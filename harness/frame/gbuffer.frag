@@ -27,7 +27,10 @@ void main() {
     roughness *= t.g;
     metallic *= t.b;
   }
-  vec3 view = viewer.perspective != 0u ? normalize(viewer.position - position) : -viewer.forward;
+  // Chosen, not branched to: lavapipe (Mesa 22.3) inlined a branch on this uniform into the shader, compiled
+  // it anew at every draw, and kept each (open_frames_test.cpp).
+  vec3 towards = normalize(viewer.position - position);
+  vec3 view = mix(-viewer.forward, towards, bvec3(viewer.perspective != 0u));
 
   // The face's normal on the viewer's side.
   vec3 geometric = face_normals[draw.first_triangle + uint(gl_PrimitiveID)].xyz;

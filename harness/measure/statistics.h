@@ -36,6 +36,12 @@ class MedianBootstrap {
 // 97.5 % of the medians of `resamples` draws. One sample s gives [s, s].
 Interval bootstrap_median_ci95(std::span<const double> samples, int resamples = 1000, uint64_t seed = 1);
 
+// 95 % interval of the median of samples whose count was chosen by looking at them (measure/stopping.h):
+// between order statistics, interpolated (Hettmansperger & Sheather 1986), at the nominal level of 97 % for
+// every look, as in a group sequential trial (Pocock 1977). That much leaves 95 %: stopping_test. Up to 6
+// samples give their range, which holds the median in 1 − 2^(1−n) of all cases.
+Interval median_ci95(std::span<const double> samples);
+
 // t with P(|T| <= t) = 0.95 for Student's distribution of `degrees` >= 1 degrees of freedom.
 double student_t95(int degrees);
 
@@ -48,13 +54,13 @@ struct MeanEstimate {
 };
 MeanEstimate mean_ci95(std::span<const double> samples);
 
-// What a report says of a set of times. Order statistics of type 7; ci95 is that of the median.
+// What a report says of a set of times. Order statistics of type 7; ci95 is median_ci95().
 struct Summary {
   std::vector<double> samples;  // in the order measured
   double median = 0, min = 0, q1 = 0, q3 = 0, p95 = 0;
   Interval ci95;
 };
 // Throws std::invalid_argument for no samples or a sample that is not finite.
-Summary summarize(std::vector<double> samples, uint64_t seed = 1);
+Summary summarize(std::vector<double> samples);
 
 }  // namespace vsglbench

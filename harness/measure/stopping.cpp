@@ -24,7 +24,7 @@ std::optional<StopReason> should_stop(const StoppingRule& rule, std::span<const 
                                       double elapsed_s) {
   if (samples.empty()) return std::nullopt;
   if (looks_at(samples.size()) && samples.size() >= rule.min_samples &&
-      bootstrap_median_ci95(samples).width() < rule.relative_width * median(samples)) {
+      median_ci95(samples).width() < rule.relative_width * median(samples)) {
     return StopReason::converged;
   }
   if (samples.size() >= rule.max_samples) return StopReason::max_samples;

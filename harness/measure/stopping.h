@@ -17,8 +17,9 @@ struct StoppingRule {
 enum class StopReason { converged, time_limit, max_samples };
 std::string_view name(StopReason reason);  // "converged", "time_limit", "max_samples"
 
-// Whether the interval is looked at after so many samples: 8, 16, 32, … A rule that looks after every sample
-// ends at the luckiest moment, and leaves a nominal 95 % interval with 83 to 87 % of coverage.
+// Whether the interval is looked at after so many samples: 8, 16, 32, … By doubled counts 0.947 of the
+// intervals of median_ci95() at least hold the median, as stopping_test counts; a rule that looks after every
+// sample ends at the luckiest moment, which leaves down to 0.938.
 bool looks_at(size_t samples);
 
 // Nothing while more samples are wanted. In this order: no sample yet → go on; looked at, interval under the

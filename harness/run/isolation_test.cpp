@@ -168,6 +168,10 @@ TEST_F(IsolationTest, ATwinThatCrashesCostsThePair) {
   const Report r = report();
   EXPECT_TRUE(r.aa.empty());
   for (const auto& c : r.cases) EXPECT_EQ(c.status, Status::ok) << c.id;
+  ASSERT_EQ(r.scenes.at(0).warnings.size(), 1u);
+  for (const char* part : {"and with it the A/A pair", "signal 11", "frame 1"})
+    EXPECT_TRUE(contains(r.scenes[0].warnings[0], part));
+  expect_sound(out_ / "report.json");
 }
 
 TEST_F(IsolationTest, ACrashOfTheHarnessFailsWhatIsLeftOfTheScene) {
@@ -181,6 +185,8 @@ TEST_F(IsolationTest, ACrashOfTheHarnessFailsWhatIsLeftOfTheScene) {
   EXPECT_EQ(run("", "drawing the contact sheet", crash).exit_code, 0);  // all have their numbers by then
   for (const auto& c : report().cases) EXPECT_EQ(c.status, Status::ok);
   EXPECT_TRUE(report().scenes.at(0).contact.empty());
+  ASSERT_EQ(report().scenes[0].warnings.size(), 1u);
+  EXPECT_TRUE(contains(report().scenes[0].warnings[0], "drawing the contact sheet"));
 }
 
 // What the others had shown when a worker died is gone on with: no seed is rendered twice.

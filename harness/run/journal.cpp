@@ -59,6 +59,14 @@ Json Journal::header() const {
   return is_ours && json.contains("about") ? json["about"] : Json();
 }
 
+bool Journal::is_empty() const {
+  if (!is_file_or_absent(path_)) return true;
+  std::ifstream file(path_, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  return file.peek() == std::ifstream::traits_type::eof();
+}
+
 std::vector<Json> Journal::read() const {
   std::vector<Json> messages;
   std::ifstream file(path_, std::ios::binary);

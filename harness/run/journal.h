@@ -17,8 +17,10 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   // What it is about, as restart() was told; null where there is no journal.
   Json header() const;
+  bool is_empty() const;  // no more than a header, sound or not
   // What was appended since the last restart(), by this process or an earlier one. A line that was cut off is
   // passed over, with a warning.
   std::vector<Json> read() const;

@@ -47,6 +47,17 @@ TEST_F(JournalTest, SaysWhatItIsAbout) {
   EXPECT_TRUE(Journal(path_).header().is_null());
 }
 
+TEST_F(JournalTest, IsEmptyUntilSomethingIsAppended) {
+  EXPECT_TRUE(Journal(path_).is_empty());
+  Journal journal(path_);
+  journal.restart("2024");
+  EXPECT_TRUE(journal.is_empty());
+  journal.append(1);
+  EXPECT_FALSE(journal.is_empty());
+  fs::resize_file(path_, 5);  // killed while it began
+  EXPECT_TRUE(journal.is_empty());
+}
+
 TEST_F(JournalTest, ALineThatWasCutOffCostsItself) {
   Journal journal(path_);
   journal.restart("2024");

@@ -67,41 +67,54 @@ void ReportStore::leave_to_parent() {
   lock_ = -1;
 }
 
-// The journal's own run, where that is the same.
-std::optional<Report> ReportStore::begun(const Report& fresh) const {
-  const Json header = journal_.header();
-  if (header.is_null()) return std::nullopt;
+// What the journal says that it is of; nothing where it is damaged, or there is none.
+std::optional<Report> ReportStore::begun() const {
   try {
-    Report report = report_from_json(header);
-    if (same_run(report, fresh)) return report;
-  } catch (const std::exception&) {  // damaged
+    return report_from_json(journal_.header());
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+// What is saved of the same run; any other report is to be moved aside.
+std::optional<Report> ReportStore::saved(const Report& fresh, bool anew) {
+  std::error_code ec;
+  if (!fs::exists(path_, ec)) return std::nullopt;
+  try {
+    Report report = read_report(path_);
+    if (!anew && !report.complete && same_run(report, fresh)) return report;
+    aside_ = folder_ / (report.complete ? "report.previous.json" : "report.incomplete.json");
+  } catch (const Error& e) {
+    log_warning("{}; it is kept as report.damaged.json", e.what());
+    aside_ = folder_ / "report.damaged.json";
   }
   return std::nullopt;
 }
 
 Report ReportStore::open(const Report& fresh, bool anew) {
-  std::error_code ec;
-  std::optional<Report> earlier = anew ? std::nullopt : begun(fresh);
-  if (fs::exists(path_, ec)) {
-    try {
-      Report saved = read_report(path_);
-      // The journal of a run that has saved a scene is of that run.
-      if (!anew && !saved.complete && same_run(saved, fresh)) {
-        goes_on_ = earlier && earlier->created == saved.created;
-        earlier = std::move(saved);
-        earlier->argv = fresh.argv;
-        return *earlier;
-      }
-      aside_ = folder_ / (saved.complete ? "report.previous.json" : "report.incomplete.json");
-    } catch (const Error& e) {
-      log_warning("{}; it is kept as report.damaged.json", e.what());
-      aside_ = folder_ / "report.damaged.json";
-    }
-  }
+  std::optional<Report> earlier = begun();
+  if (anew || !earlier || !same_run(*earlier, fresh)) earlier.reset();
   goes_on_ = earlier.has_value();
+  if (std::optional<Report> report = saved(fresh, anew)) {
+    // The journal of a run that has saved a scene is of that run.
+    goes_on_ = earlier && earlier->created == report->created;
+    earlier = std::move(report);
+  }
+  if (!goes_on_) keep_journal();
   if (!earlier) return fresh;
   earlier->argv = fresh.argv;
   return *earlier;
+}
+
+// One that is not gone on with, where it says anything.
+void ReportStore::keep_journal() const {
+  if (journal_.is_empty()) return;
+  const bool damaged = !begun();
+  const fs::path kept = folder_ / (damaged ? "report.damaged.journal" : "report.incomplete.journal");
+  move(journal_.path(), kept);
+  log_warning("{}: {}; it is kept as {}", journal_.path().string(),
+              damaged ? "its first line is damaged" : "of a run that is not gone on with",
+              kept.filename().string());
 }
 
 void ReportStore::forget_notes(const Report& report) {

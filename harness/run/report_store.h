@@ -12,7 +12,8 @@ namespace vsglbench {
 
 // One run's hold on an output folder. What an earlier run left there is moved aside when the first new report
 // is safely on the disk: a complete one to report.previous.json, one of an interrupted run that is not gone
-// on with to report.incomplete.json, a damaged one to report.damaged.json.
+// on with to report.incomplete.json, a damaged one to report.damaged.json. A journal that is not gone on with
+// is moved aside at once, to report.incomplete.journal or report.damaged.journal.
 class ReportStore {
  public:
   // Creates the folder. Throws Error(output) when it can't be written to, or another run is writing there.
@@ -40,7 +41,9 @@ class ReportStore {
   void close();
 
  private:
-  std::optional<Report> begun(const Report& fresh) const;
+  std::optional<Report> begun() const;
+  std::optional<Report> saved(const Report& fresh, bool anew);
+  void keep_journal() const;
   std::filesystem::path folder_, path_;
   std::optional<std::filesystem::path> aside_;  // where the earlier report goes at the next save
   Journal journal_;

@@ -172,66 +172,6 @@ TEST_F(RunTest, WallTimeAddsUp) {
   EXPECT_EQ(report().wall.device_s, wall.device_s);
 }
 
-TEST_F(RunTest, ASecondRunKeepsTheEarlierReport) {
-  run();
-  const std::string before = read_text(out_ / "report.json");
-  run();
-  EXPECT_EQ(read_text(out_ / "report.previous.json"), before);
-  expect_sound(out_ / "report.json");
-}
-
-// As an interruption after the first of two scenes leaves it.
-TEST_F(RunTest, AnInterruptedRunGoesOn) {
-  config_["scenes"] = {"cornell", "ring514"};
-  run();
-  Report stopped = report();
-  const double kept = stopped.cases.at(0).frame->span.median, lost = stopped.cases.at(1).frame->span.median;
-  stopped.complete = false;
-  stopped.cases.pop_back();
-  stopped.scenes.pop_back();
-  stopped.aa.pop_back();
-  write_report(out_ / "report.json", stopped);
-  EXPECT_EQ(run().exit_code, 0);
-  const Report resumed = report();
-  EXPECT_TRUE(resumed.complete);
-  ASSERT_EQ(resumed.cases.size(), 2u);
-  ASSERT_EQ(resumed.scenes.size(), 2u);
-  EXPECT_EQ(resumed.created, stopped.created);
-  EXPECT_EQ(resumed.cases[0].frame->span.median, kept);
-  EXPECT_NE(resumed.cases[1].frame->span.median, lost);
-  ASSERT_EQ(resumed.aa.size(), 2u);  // one a scene; the first scene's as it was
-  EXPECT_EQ(part_to_json(resumed.aa[0]), part_to_json(stopped.aa[0]));
-  EXPECT_EQ(resumed.aa[1].scene, "ring514");
-  EXPECT_GT(resumed.wall.total_s, stopped.wall.total_s);
-  EXPECT_FALSE(fs::exists(out_ / "report.previous.json"));
-}
-
-TEST_F(RunTest, ForceAndAnotherExperimentStartAnewAndLoseNothing) {
-  run();
-  const std::string complete = read_text(out_ / "report.json");
-  run();  // the complete one moves to report.previous.json
-  Report stopped = report();
-  stopped.complete = false;
-  const double measured = stopped.cases.at(0).frame->span.median;
-  write_report(out_ / "report.json", stopped);
-  run({}, true);
-  EXPECT_NE(report().cases.at(0).frame->span.median, measured);
-  EXPECT_EQ(read_report(out_ / "report.incomplete.json").cases.at(0).frame->span.median, measured);
-  EXPECT_EQ(read_text(out_ / "report.previous.json"), complete);
-
-  write_report(out_ / "report.json", stopped);
-  config_["rsm"] = 8;
-  run();
-  EXPECT_EQ(report().cases.size(), 1u);
-  EXPECT_EQ(report().cases.at(0).parameters.at("rsm"), 8);
-}
-
-TEST_F(RunTest, ADamagedReportIsKeptAside) {
-  write_text(out_ / "report.json", "{\"schema\": \"vsgl");
-  EXPECT_EQ(run().exit_code, 0);
-  EXPECT_EQ(read_text(out_ / "report.damaged.json"), "{\"schema\": \"vsgl");
-}
-
 TEST_F(RunTest, OnlyTakesAGlobOverIds) {
   config_["methods"] = {{{"method", "vpl"}, {"N", {4, 8}}}, {{"method", "fis"}}};
   run({"*/vpl/N=8,*"});

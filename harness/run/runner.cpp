@@ -16,6 +16,7 @@
 #include "run/case_run.h"
 #include "run/overrides.h"
 #include "run/report_store.h"
+#include "run/scene_news.h"
 #include "run/scene_workers.h"
 
 namespace fs = std::filesystem;

@@ -7,12 +7,11 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "measure/stopwatch.h"
-#include "report/noise.h"
 #include "run/memory.h"
 #include "run/references.h"
-#include "run/scene_clocks.h"
 #include "run/scene_images.h"
 #include "run/scene_pdfs.h"
+#include "run/scene_rounds.h"
 #include "run/visibility_tracer.h"
 
 namespace vsglbench {
@@ -51,15 +50,8 @@ class SceneRun {
   CaseInput input_of(CaseRun& run);
   void look_at_all(const std::vector<Case>& cases);
   void settle(CaseRun& run);
-  void add_twin();
-  void time_all();
-  void warm_up();
-  template <class Frame>
-  void every_case(const Frame& frame);
-  void conclude_finished();
+  bool add_twin();
   void conclude(CaseRun& run);
-  CaseRun* original_of_twin();
-  void pair_twin();
   void draw_sheet();
   void harness_works(const std::string& what) { observer_.now({"", what, false}); }
 
@@ -77,7 +69,6 @@ class SceneRun {
   std::vector<CaseRun> runs_;  // the twin, if there is one, last
   std::vector<CaseResult> results_;
   uint64_t kept_bytes_ = 0;
-  bool twin_ = false;
 };
 
 bool has_images(const SceneOutcome& outcome) {
@@ -158,8 +149,10 @@ CaseRun& SceneRun::open(const Case& c) {
 void SceneRun::run(const std::vector<Case>& cases) {
   runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
   look_at_all(cases);
-  if (wants_twin_) add_twin();
-  time_all();
+  const bool twin = wants_twin_ && add_twin();
+  SceneRounds(runs_, twin, config_, observer_, [this](CaseRun& run) {
+    conclude(run);
+  }).run(clocks_, &report_);
   if (config_.measure == Measure::frame) draw_sheet();
 }
 
@@ -191,91 +184,23 @@ void SceneRun::settle(CaseRun& run) {
 }
 
 // The first case that has proved sound, under another name: what the two show as a difference is noise.
-void SceneRun::add_twin() {
+bool SceneRun::add_twin() {
   const auto sound = std::ranges::find_if(runs_, [](const CaseRun& r) { return !r.failed(); });
-  if (sound == runs_.end()) return;
+  if (sound == runs_.end()) return false;
   Case twin = sound->description();
   twin.id = twin_id(twin.id);
-  twin_ = true;
   open(twin);
-}
-
-// --- timing ---
-
-template <class Frame>
-void SceneRun::every_case(const Frame& frame) {
-  for (CaseRun& run : runs_)
-    if (!run.finished()) frame(run);
-}
-
-// Frames of every case, in rounds, for as long as a clock takes to rise that an idle device has let fall.
-void SceneRun::warm_up() {
-  constexpr double kBusySeconds = 0.3;
-  const Stopwatch watch;
-  const auto unfinished = [](const CaseRun& run) { return !run.finished(); };
-  for (uint32_t round = 0; round < config_.warmup || watch.seconds() < kBusySeconds; ++round) {
-    if (std::ranges::none_of(runs_, unfinished)) return;
-    every_case([](CaseRun& run) { run.warm_up(); });
-  }
-}
-
-void SceneRun::time_all() {
-  uint64_t frames = 0;
-  for (const CaseRun& run : runs_) frames += run.frames_left();
-  Progress progress(report_.name + ": times", frames);
-  conclude_finished();
-  warm_up();
-  const auto unfinished = [](const CaseRun& run) { return !run.finished(); };
-  while (std::ranges::any_of(runs_, unfinished)) {
-    clocks_.look();
-    every_case([&](CaseRun& run) {
-      run.step();
-      if (!run.failed()) observer_.timed(run.description().id, run.last_frame());
-      progress.advance();
-    });
-    clocks_.look();
-    if (clocks_.report()) report_.clocks = clocks_.report();
-    conclude_finished();
-  }
+  return true;
 }
 
 // --- concluding ---
 
-// Between two rounds: what is finished is told at once, so that no later crash can take it. The case that the
-// twin repeats waits for it, so that the two stay a pair whenever a run is cut short.
-void SceneRun::conclude_finished() {
-  if (twin_) pair_twin();
-  const CaseRun* waiting = original_of_twin();
-  for (CaseRun& run : runs_)
-    if (run.finished() && !run.concluded() && &run != waiting) conclude(run);
-}
-
 void SceneRun::conclude(CaseRun& run) {
-  const bool is_twin = twin_ && &run == &runs_.back();
   const CaseResult result = run.result();
   run.conclude();
   harness_works("measuring");
-  if (is_twin) return;
   observer_.concluded(result);
   results_.push_back(result);
-}
-
-// While the twin is measured; else null.
-CaseRun* SceneRun::original_of_twin() {
-  if (!twin_ || runs_.back().concluded()) return nullptr;
-  const auto original = std::ranges::find_if(runs_, [&](const CaseRun& run) {
-    return twin_id(run.description().id) == runs_.back().description().id;
-  });
-  return &*original;
-}
-
-// Nothing when either failed.
-void SceneRun::pair_twin() {
-  const CaseRun* original = original_of_twin();
-  CaseRun& twin = runs_.back();
-  if (!original || !original->finished() || !twin.finished()) return;
-  if (!original->failed() && !twin.failed()) observer_.paired(aa_pair(original->result(), twin.result()));
-  conclude(twin);
 }
 
 void SceneRun::draw_sheet() {

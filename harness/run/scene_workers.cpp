@@ -5,20 +5,16 @@
 
 #include "base/log.h"
 #include "base/supervise.h"
+#include "run/scene_news.h"
 
 namespace vsglbench {
 namespace {
 
-void add(const WallTime& more, WallTime* sum) {
+void add_time(const WallTime& more, WallTime* sum) {
   sum->device_s += more.device_s;
   sum->references_s += more.references_s;
   sum->visibility_s += more.visibility_s;
   sum->compilation_s += more.compilation_s;
-}
-
-bool has_result(const SceneOutcome& outcome, const std::string& id) {
-  return std::any_of(outcome.cases.begin(), outcome.cases.end(),
-                     [&](const CaseResult& r) { return r.id == id; });
 }
 
 // What is left to do of a scene: these cases, the contact sheet and, last, the A/A pair.
@@ -35,69 +31,6 @@ struct Jobs {
     return found == cases.end() ? twin() : static_cast<size_t>(found - cases.begin());
   }
 };
-
-// What a worker tells: what has become known, with the time that it has spent so far, and what the validation
-// layers have said since its last message.
-struct SceneNews {
-  std::optional<SceneReport> scene;
-  std::optional<ScoredCase> scored;
-  std::vector<std::pair<std::string, FrameTimes>> frames;  // timed, by case id
-  std::optional<CaseResult> result;
-  std::optional<AaPair> aa;
-  WallTime wall;
-  std::vector<std::string> validation;
-};
-
-Json frame_json(const std::string& id, const FrameTimes& frame) {
-  Json passes = Json::array();
-  for (const PassTime& pass : frame.passes) passes.push_back({pass.pass.name(), pass.ms});
-  return {id, frame.span_ms, frame.sum_ms, frame.generate_dispatches, passes};
-}
-
-std::pair<std::string, FrameTimes> frame_from(const Json& json) {
-  FrameTimes frame{.span_ms = json.at(1), .sum_ms = json.at(2), .generate_dispatches = json.at(3)};
-  for (const Json& pass : json.at(4)) frame.passes.push_back({parse_pass_name(pass.at(0)), pass.at(1)});
-  return {json.at(0), frame};
-}
-
-Json to_json(const SceneNews& news) {
-  Json json = {{"wall", part_to_json(news.wall)}, {"validation", news.validation}};
-  if (news.scene) json["scene"] = part_to_json(*news.scene);
-  if (news.scored)
-    json["scored"] = {{"case", part_to_json(news.scored->result)}, {"rays_ms", news.scored->rays_ms}};
-  for (const auto& [id, frame] : news.frames) json["frames"].push_back(frame_json(id, frame));
-  if (news.result) json["case"] = part_to_json(*news.result);
-  if (news.aa) json["aa"] = part_to_json(*news.aa);
-  return json;
-}
-
-void from_json(const Json& json, SceneNews* news) {
-  news->wall = part_from_json<WallTime>(json.at("wall"));
-  news->validation = json.at("validation");
-  if (json.contains("scene")) news->scene = part_from_json<SceneReport>(json["scene"]);
-  if (json.contains("scored"))
-    news->scored = {part_from_json<CaseResult>(json["scored"].at("case")), json["scored"].at("rays_ms")};
-  if (json.contains("frames"))
-    for (const Json& frame : json["frames"]) news->frames.push_back(frame_from(frame));
-  if (json.contains("case")) news->result = part_from_json<CaseResult>(json["case"]);
-  if (json.contains("aa")) news->aa = part_from_json<AaPair>(json["aa"]);
-}
-
-bool is_worth_noting(const SceneNews& news) {
-  return news.scene || news.scored || !news.frames.empty() || news.result || news.aa;
-}
-
-void add(const SceneNews& news, SceneOutcome* outcome) {
-  const auto is_open = [&](const std::string& id) { return !has_result(*outcome, id); };
-  if (news.scene) outcome->scene = news.scene;
-  if (news.scored && is_open(news.scored->result.id))
-    outcome->begun[news.scored->result.id].scored = news.scored;
-  for (const auto& [id, frame] : news.frames)
-    if (is_open(id)) outcome->begun[id].frames.push_back(frame);
-  if (news.result && is_open(news.result->id)) outcome->cases.push_back(*news.result);
-  if (news.result) outcome->begun.erase(news.result->id);
-  if (news.aa) outcome->aa = news.aa;
-}
 
 // --- in the worker ---
 
@@ -214,7 +147,7 @@ class SceneWatch {
   void take(const SceneNews& news) {
     add(news, &outcome_);
     log_.wall = before_;
-    vsglbench::add(news.wall, &log_.wall);
+    add_time(news.wall, &log_.wall);
     log_.validation_messages.insert(log_.validation_messages.end(), news.validation.begin(),
                                     news.validation.end());
     if (is_worth_noting(news)) noted_(to_json(news));
@@ -243,11 +176,24 @@ class SceneWatch {
     if (end.kind == ErrorKind::device) log_.device_gone = one_line(end.how);
     const bool of_case = end.task.job && *end.task.job < jobs_.cases.size();
     log_warning("{}: {}", of_case ? jobs_.cases[*end.task.job].id : scene_, message_of(end));
+    if (!of_case) warn(end);
   }
 
  private:
   static std::string message_of(const End& end) {
     return fmt::format("{} during {}", one_line(end.how), end.task.action);
+  }
+
+  // In the report: no case tells of this end, unless it has cost all that were left.
+  void warn(const End& end) {
+    if (!outcome_.scene) return;
+    SceneNews news;
+    news.scene = outcome_.scene;
+    news.scene->warnings.push_back(
+        fmt::format("a worker process ended at no case's fault{}: {}",
+                    end.task.job == jobs_.twin() ? ", and with it the A/A pair" : "", message_of(end)));
+    add(news, &outcome_);
+    noted_(to_json(news));
   }
 
   const std::string& scene_;
@@ -305,12 +251,6 @@ void run_scene_in_workers(const std::string& scene, const Config& config, const 
                         .told = [&](const SceneNews& news) { watch.take(news); },
                         .lost = [&](size_t job, const End& end) { watch.lose(job, end); },
                         .died = [&](const End& end) { watch.bury(end); }});
-}
-
-void take_news(const Json& json, SceneOutcome* outcome) {
-  SceneNews news;
-  from_json(json, &news);
-  add(news, outcome);
 }
 
 }  // namespace vsglbench

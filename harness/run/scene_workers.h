@@ -31,7 +31,8 @@ struct WorkerLog {
   std::string device_gone;  // why no device could be opened any more; empty: there is one
 };
 
-// Is given everything that a scene's workers find or lose, as soon as it is known; take_news() takes it back.
+// Is given everything that a scene's workers find or lose, as soon as it is known; take_news()
+// (run/scene_news.h) takes it back.
 using Noted = std::function<void(const Json& news)>;
 
 // Measures those of `cases` that `outcome` holds no result of, in one worker process. When that dies the case
@@ -41,9 +42,5 @@ using Noted = std::function<void(const Json& news)>;
 void run_scene_in_workers(const std::string& scene, const Config& config, const std::vector<Case>& cases,
                           bool aa, const WorkerOptions& options, const Noted& noted, SceneOutcome* outcome,
                           WorkerLog* log);
-
-// Adds to the outcome what another process was told; nothing of a case that has come to an end. Throws
-// std::exception for what is no news.
-void take_news(const Json& news, SceneOutcome* outcome);
 
 }  // namespace vsglbench

@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "run/journal.h"
 #include "run/run_fixture.h"
 #include "run/runner.h"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-constexpr size_t kKills = 10, kFrames = 16;
+constexpr size_t kKills = 12, kFrames = 16, kCases = 8;  // of each of two scenes
 
 class SurvivalTest : public RunFixture {
  protected:
@@ -63,6 +64,18 @@ class SurvivalTest : public RunFixture {
       count += line.find(" | frame ") != std::string::npos ? 1 : 0;
     return count;
   }
+  // Timed frames that are on the disk: of a scene that is saved all, those of the A/A twin among them, else
+  // what the journal tells.
+  static size_t frames_kept(const fs::path& out) {
+    std::set<std::string> saved;
+    if (fs::exists(out / "report.json"))
+      for (const SceneReport& scene : read_report(out / "report.json").scenes) saved.insert(scene.name);
+    size_t count = saved.size() * kFrames * (kCases + 1);
+    for (const Json& line : Journal(out / "report.journal").read())
+      if (!saved.contains(line.at("scene")) && line.at("news").contains("frames"))
+        count += line["news"]["frames"].size();
+    return count;
+  }
 };
 
 // What no clock is asked for.
@@ -88,19 +101,27 @@ std::set<std::string> files_in(const fs::path& folder) {
   return files;
 }
 
-TEST_F(SurvivalTest, KilledTenTimesTheReportIsTheSame) {
+TEST_F(SurvivalTest, KilledTwelveTimesTheReportIsTheSame) {
   const fs::path whole = folder_ / "whole", killed = folder_ / "killed";
   ASSERT_EQ(wait(start(whole)), 0);
 
-  // Each at a random action, of so few that ten starts together can't end the run.
+  // In turn at a random action of a start's first, which open cases and look at them, and at a random timed
+  // frame; of so few that all starts together can't end the run.
   std::mt19937_64 random(std::random_device{}());
-  const size_t most = lines_of(diary_of(whole)) / (2 * kKills);
+  const auto one_of = [&](size_t most) { return std::uniform_int_distribution<size_t>(1, most)(random); };
+  size_t lost = 0;             // frames that were begun and are not on the disk
+  std::vector<size_t> losses;  // of each kill amid timed frames
   for (size_t i = 0; i < kKills; ++i) {
-    const size_t moment = lines_of(diary_of(killed)) + std::uniform_int_distribution<size_t>(1, most)(random);
+    const auto progress = [&] { return i % 2 == 0 ? lines_of(diary_of(killed)) : frames_begun(killed); };
+    const size_t moment = progress() + one_of(i % 2 == 0 ? 40 : frames_begun(whole) / kKills);
     const pid_t pid = start(killed);
-    while (lines_of(diary_of(killed)) < moment) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (progress() < moment) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ::kill(pid, SIGKILL);
     ASSERT_EQ(wait(pid), -SIGKILL) << i;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // its worker ends a moment later
+    const size_t gone = frames_begun(killed) - frames_kept(killed);
+    if (i % 2 == 1) losses.push_back(gone - lost);
+    lost = gone;
   }
   const bool is_open = fs::exists(killed / "report.journal") || !fs::exists(killed / "report.json");
   ASSERT_EQ(is_open ? wait(start(killed)) : 0, 0);
@@ -115,9 +136,14 @@ TEST_F(SurvivalTest, KilledTenTimesTheReportIsTheSame) {
   const Report report = read_report(killed / "report.json");
   expect_sound(killed / "report.json");
   EXPECT_EQ(report.aa.size(), 2u);
-  // The frame at hand, and those before it whose times were on their way: frames of a millisecond, of which a
-  // busy machine lets several pass before they are read.
-  EXPECT_LE(frames_begun(killed), frames_begun(whole) + 8 * kKills);
+  // What was lost is measured again, and nothing else.
+  EXPECT_EQ(frames_begun(killed), frames_begun(whole) + lost);
+  // The frame in flight, and those whose times were in a message that was not read yet: a frame's times
+  // travel with the next action, at once, so that there is one such at most while the reader keeps up. A
+  // machine that does not let it may leave as many as its buffer and the pipe hold, some 170. Of 48 kills, at
+  // a load of 4 on 2 cores, 38 lost one frame, 7 two, and three 4, 5 and 16: hence the median.
+  std::ranges::sort(losses);
+  EXPECT_LE(losses[losses.size() / 2], 2u) << "of " << losses.size() << " kills";
 }
 
 }  // namespace
