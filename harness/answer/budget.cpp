@@ -61,8 +61,8 @@ void add(Budget* budget, const std::string& metric, const std::string& name, con
          const std::string& missing) {
   BudgetPart part{name, "", missing, {}, {}};
   if (c) {
-    const MetricResult& m = *metric_of(*c->accuracy, metric);
-    part = {name, c->id, "", Estimate{*m.value, m.ci95.value_or(Interval{*m.value, *m.value})}, *m.value};
+    const Estimate error = *error_of(*c, metric);
+    part = {name, c->id, "", error, error.value};
     for (auto above = budget->parts.rbegin(); above != budget->parts.rend(); ++above) {
       if (!above->error) continue;
       *part.increment -= above->error->value;

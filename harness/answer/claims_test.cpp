@@ -186,5 +186,14 @@ TEST(Claims, AFaultyListIsRefusedByItsLine) {
   std::filesystem::remove(path);
 }
 
+TEST(Claims, NothingOfAReportReachesTheTerminalRaw) {
+  MadeReport r(1, 0, 0.3);
+  for (const char* method : {"a", "b"}) r.add(made(method, 64, 10, 1, "box\x1b[2J\n"));
+  r.report.device.name = "\x1b[2J";
+  const std::vector<TriedClaim> tried = {try_claim(r.report, claim_of({{"method", "a"}}, {{"method", "b"}}))};
+  for (const bool markdown : {false, true})
+    EXPECT_EQ(claims_text(r.report, tried, markdown).find('\x1b'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace vsglbench

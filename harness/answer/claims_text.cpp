@@ -58,8 +58,8 @@ std::string terminal(const TriedClaim& tried) {
   size_t scene = 5;
   for (const ClaimRow& r : tried.rows) scene = std::max(scene, r.scene.size());
   for (const ClaimRow& r : tried.rows) {
-    out += fmt::format("    {:<{}}  {:<13}  {:<13}  {:<24}  {}\n", r.scene, scene, r.metric, name(r.ruling),
-                       ratio_text(r), pairs_text(r));
+    out += fmt::format("    {:<{}}  {:<13}  {:<13}  {:<24}  {}\n", printable(r.scene), scene, r.metric,
+                       name(r.ruling), ratio_text(r), pairs_text(r));
   }
   return out;
 }
@@ -70,8 +70,8 @@ std::string markdown(const TriedClaim& tried) {
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
   out += "| scene | metric | ruling | ratio [95 %] | pairs as said |\n| --- | --- | --- | ---: | --- |\n";
   for (const ClaimRow& r : tried.rows)
-    out += fmt::format("| {} | {} | {} | {} | {} |\n", r.scene, r.metric, name(r.ruling), ratio_text(r),
-                       pairs_text(r));
+    out += fmt::format("| {} | {} | {} | {} | {} |\n", printable(r.scene), r.metric, name(r.ruling),
+                       ratio_text(r), pairs_text(r));
   return out + "\n";
 }
 
@@ -92,12 +92,13 @@ std::string settings_text(const Json& settings) {
 std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool as_markdown) {
   std::string out;
   for (const TriedClaim& c : claims) out += as_markdown ? markdown(c) : terminal(c) + "\n";
-  return out + fmt::format(
-                   "ratios: geometric means over pairs of cases alike in all else, with Student's interval "
-                   "over seeds "
-                   "(of times: the ends of the medians' intervals and the A/A noise); {}{}\n",
-                   printable(report.device.name),
-                   report.device.type == "cpu" ? ", a CPU: its times say nothing of a GPU's" : "");
+  return printable_lines(out) +
+         fmt::format(
+             "ratios: geometric means over pairs of cases alike in all else, with Student's interval "
+             "over seeds "
+             "(of times: the ends of the medians' intervals and the A/A noise); {}{}\n",
+             printable(report.device.name),
+             report.device.type == "cpu" ? ", a CPU: its times say nothing of a GPU's" : "");
 }
 
 }  // namespace vsglbench

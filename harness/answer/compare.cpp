@@ -54,11 +54,13 @@ Change time_change(const Ratio& r, double noise, double superiority) {
   return r.ci95.lo >= below && r.ci95.hi <= above ? Change::same : Change::ambiguous;
 }
 
-double larger_noise(const Report& base, const Report& now, const std::string& scene,
-                    const std::string& time) {
-  double noise = 0;
+// Nothing where neither report has an A/A pair with this time.
+std::optional<double> larger_noise(const Report& base, const Report& now, const std::string& scene,
+                                   const std::string& time) {
+  std::optional<double> noise;
   for (const Report* report : {&base, &now}) {
-    if (const TimeNoise* n = noise_of(*report, scene, time)) noise = std::max(noise, n->noise_floor);
+    if (const TimeNoise* n = noise_of(*report, scene, time))
+      noise = std::max(noise.value_or(0), n->noise_floor);
   }
   return noise;
 }
@@ -81,7 +83,8 @@ std::vector<std::string> columns_of(const PassId& pass) {
   }
 }
 
-double noise_of_pass(const Report& base, const Report& now, const std::string& scene, const PassId& pass) {
+std::optional<double> noise_of_pass(const Report& base, const Report& now, const std::string& scene,
+                                    const PassId& pass) {
   const auto is_known = [&](const std::string& time) {
     return noise_of(base, scene, time) && noise_of(now, scene, time);
   };
@@ -156,40 +159,58 @@ std::string refusal_of(const Report& base, const Report& now, const std::vector<
   return "";
 }
 
-// The first case of each scene, which ratios are to.
-using Anchors = std::map<std::string, Pair>;
-Anchors anchors_of(const std::vector<Pair>& pairs) {
-  Anchors out;
-  for (const Pair& p : pairs) out.try_emplace(p.base->scene, p);
+std::map<PassStage, double> stages_of(const CaseResult& c) {
+  std::map<PassStage, double> out;
+  for (const PassTiming& p : c.passes) out[p.pass.stage] += p.ms.median;
   return out;
 }
 
-// ms over the anchor's median, or as they are.
-std::optional<std::vector<double>> samples_of(const CaseResult& c, const CaseResult* anchor) {
+// How much longer everything takes in a scene, as a logarithm: the median over all stages of all its cases.
+// Neither a stage that became slower in every case moves it, nor a method that did in every stage.
+std::map<std::string, double> units_of(const std::vector<Pair>& pairs) {
+  std::map<std::string, std::vector<double>> logs;
+  for (const Pair& p : pairs) {
+    const auto before = stages_of(*p.base), after = stages_of(*p.now);
+    for (const auto& [stage, ms] : before) {
+      const auto at = after.find(stage);
+      if (at != after.end() && ms > 0 && at->second > 0)
+        logs[p.base->scene].push_back(std::log(at->second / ms));
+    }
+  }
+  std::map<std::string, double> out;
+  for (const auto& [scene, values] : logs) out[scene] = median(values);
+  return out;
+}
+
+// By scene, what times of the new report are divided by, as a logarithm.
+std::map<std::string, double> units_of(const std::vector<Pair>& pairs, const CompareOptions& options) {
+  return options.ratios ? units_of(pairs) : std::map<std::string, double>();
+}
+
+double unit_in(const std::map<std::string, double>& units, const std::string& scene) {
+  const auto at = units.find(scene);
+  return at == units.end() ? 0 : at->second;
+}
+
+std::optional<std::vector<double>> samples_of(const CaseResult& c, double divisor) {
   const auto ms = time_of(c, "method");
   if (!ms || !(ms->min > 0)) return std::nullopt;
-  if (!anchor) return ms->samples;
-  const auto unit = time_of(*anchor, "method");
-  if (!unit || !(unit->min > 0)) return std::nullopt;
   std::vector<double> out = ms->samples;
-  for (double& v : out) v /= unit->median;
+  for (double& v : out) v /= divisor;
   return out;
 }
 
 void compare_times_of(const Report& base, const Report& now, const std::vector<Pair>& pairs,
                       const CompareOptions& options, Comparison* out) {
-  const Anchors anchors = anchors_of(pairs);
+  const auto units = units_of(pairs, options);
   for (const Pair& p : pairs) {
-    const Pair& anchor = anchors.at(p.base->scene);
-    if (options.ratios && anchor.base == p.base) continue;
-    const auto b = samples_of(*p.base, options.ratios ? anchor.base : nullptr),
-               n = samples_of(*p.now, options.ratios ? anchor.now : nullptr);
+    const auto b = samples_of(*p.base, 1), n = samples_of(*p.now, std::exp(unit_in(units, p.base->scene)));
     if (!b || !n) continue;
-    TimeChange t{p.base->scene, p.base->id, "method", median_ratio(*n, *b), 0, 0.5, Change::same};
+    TimeChange t{p.base->scene, p.base->id, "method", median_ratio(*n, *b), {}, 0.5, Change::same};
     t.noise = larger_noise(base, now, t.scene, "method");
     const double wins = superiority_of(*n, *b);
     t.superiority = std::max(wins, 1 - wins);
-    t.change = time_change(t.ratio, t.noise, t.superiority);
+    t.change = time_change(t.ratio, t.noise.value_or(0), t.superiority);
     out->times.push_back(std::move(t));
   }
 }
@@ -197,30 +218,26 @@ void compare_times_of(const Report& base, const Report& now, const std::vector<P
 void compare_passes(const Report& base, const Report& now, const std::vector<Pair>& pairs,
                     const CompareOptions& options, Comparison* out) {
   std::map<std::string, std::vector<double>> logs;
-  std::map<std::string, std::vector<double>> noise;
-  const Anchors anchors = anchors_of(pairs);
+  std::map<std::string, std::vector<double>> noise;  // where it is known
+  const auto units = units_of(pairs, options);
   for (const Pair& p : pairs) {
-    double unit = 0;
-    if (options.ratios) {
-      const Pair& a = anchors.at(p.base->scene);
-      const auto b = time_of(*a.base, "method"), n = time_of(*a.now, "method");
-      if (!b || !n || !(b->min > 0) || !(n->min > 0)) continue;
-      unit = std::log(n->median / b->median);
-    }
+    const double unit = unit_in(units, p.base->scene);
     for (const PassTiming& pass : p.base->passes) {
       const auto at = std::ranges::find(p.now->passes, pass.pass, &PassTiming::pass);
       if (at == p.now->passes.end() || !(pass.ms.median > 0) || !(at->ms.median > 0)) continue;
       logs[pass.pass.name()].push_back(std::log(at->ms.median / pass.ms.median) - unit);
-      noise[pass.pass.name()].push_back(noise_of_pass(base, now, p.base->scene, pass.pass));
+      if (const auto n = noise_of_pass(base, now, p.base->scene, pass.pass))
+        noise[pass.pass.name()].push_back(*n);
     }
   }
   for (const auto& [pass, values] : logs) {
     if (values.size() < 3) continue;  // nothing to resample
-    TimeChange t{"", "", pass, geometric_mean(values), median(noise.at(pass)), 0, Change::same};
+    TimeChange t{"", "", pass, geometric_mean(values), {}, 0, Change::same};
+    if (const auto at = noise.find(pass); at != noise.end()) t.noise = median(at->second);
     const auto slower = static_cast<double>(std::ranges::count_if(values, [](double v) { return v > 0; }));
     const double share = slower / static_cast<double>(values.size());
     t.superiority = std::max(share, 1 - share);
-    t.change = time_change(t.ratio, t.noise, t.superiority);
+    t.change = time_change(t.ratio, t.noise.value_or(0), t.superiority);
     out->passes.push_back(std::move(t));
   }
 }
@@ -288,7 +305,11 @@ int Comparison::exit_code() const {
   if (!broken.empty() || std::ranges::any_of(errors, regressed)) return 4;
   if (byte_equal) return 0;
   if (std::ranges::any_of(passes, regressed) || std::ranges::any_of(times, regressed)) return 4;
-  const auto unclear = [](const TimeChange& t) { return t.change == Change::ambiguous; };
+  // What may be faster or the same is no worse.
+  const auto unclear = [](const TimeChange& t) {
+    return t.change == Change::ambiguous &&
+           t.ratio.ci95.hi > 1 + std::max(t.noise.value_or(0), kSmallestEffect);
+  };
   return std::ranges::any_of(passes, unclear) ? 5 : 0;
 }
 

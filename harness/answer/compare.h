@@ -1,6 +1,7 @@
 // Two reports of the same cases: what became faster, slower, better, worse.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,18 +17,19 @@ std::string_view name(Change change);
 bool is_regression(Change change);
 
 struct CompareOptions {
-  // Times and errors of other devices are of other things; with this their ratios between cases are compared
-  // instead of times: each case's time over that of its scene's first case, within each report.
+  // Times of other devices are of other things; with this their ratios are compared instead: the new report's
+  // times are divided by what all of a scene takes longer in it, the median ratio over the stages of all
+  // cases.
   bool ratios = false;
   bool other_device = false;  // compare absolute times of two devices all the same
 };
 
 // One time of one case, or of many: ratio new / base.
 struct TimeChange {
-  std::string scene, case_id;  // both empty: over all cases that have it
-  std::string time;            // a pass, or a name of report/noise.h
-  Ratio ratio;                 // of medians, bootstrap; over cases, of the mean of log ratios, a pair a case
-  double noise = 0;            // the larger A/A floor of the two reports
+  std::string scene, case_id;   // both empty: over all cases that have it
+  std::string time;             // a pass, or a name of report/noise.h
+  Ratio ratio;                  // of medians, bootstrap; over cases, of the mean of log ratios, a pair a case
+  std::optional<double> noise;  // the larger A/A floor of the two reports; absent: not known
   double superiority =
       0.5;  // P(a time of one > one of the other), of the slower; over cases: the share of pairs
   Change change = Change::same;
@@ -52,7 +54,7 @@ struct Comparison {
   std::vector<TimeChange> passes;           // over all cases, one a pass; by name
   std::vector<TimeChange> times;            // method time of every case
   std::vector<ErrorChange> errors;          // every metric of every case
-  // 0: no regression; 4: one; 5: refused, or no regression but a pass is ambiguous.
+  // 0: no regression; 4: one; 5: refused, or no regression but a pass is ambiguous and may be slower.
   int exit_code() const;
 };
 

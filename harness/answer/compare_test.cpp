@@ -11,8 +11,9 @@ namespace {
 struct Plant {
   std::string pass;  // slowed down, in every case
   double factor = 1;
-  std::string method;  // that gets `bias`
+  std::string method;  // that gets `bias`, and `all`
   double bias = 0;
+  double all = 1;  // of every pass of the method
 };
 
 // Twelve cases as a GPU measures them, 1 % of noise a frame, and an A/A pair.
@@ -28,7 +29,10 @@ Report measured(uint64_t seed, const Plant& plant = {}) {
                             {"shade", n / 100.0}},
                  .error = 1000.0 / n};
       if (c.passes.contains(plant.pass)) c.passes[plant.pass] *= plant.factor;
-      if (plant.method == method) c.bias = plant.bias;
+      if (plant.method == method) {
+        c.bias = plant.bias;
+        for (auto& [pass, ms] : c.passes) ms *= plant.all;
+      }
       made.add(c);
     }
   }
@@ -38,6 +42,7 @@ Report measured(uint64_t seed, const Plant& plant = {}) {
       .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", 0.64}},
       .error = 1000.0 / 64};
   if (first.passes.contains(plant.pass)) first.passes[plant.pass] *= plant.factor;
+  for (auto& [pass, ms] : first.passes) ms *= plant.method == first.method ? plant.all : 1;
   const CaseResult twin = again.add(first);
   made.report.aa = {aa_pair(made.report.cases.front(), twin)};
   return made.report;
@@ -127,6 +132,63 @@ TEST(Compare, RatiosHoldOnAnyMachine) {
   EXPECT_NE(same.exit_code(), 4);
 }
 
+// The importance is most of the scene's first case, and of no other.
+TEST(Compare, RatiosNameASlowerPassAndNoOther) {
+  const Report planted = measured(2, {.pass = "importance.rsm", .factor = 1.05});
+  const Comparison c = compare_reports(measured(1), planted, {.ratios = true});
+  for (const TimeChange& t : c.passes) {
+    EXPECT_EQ(t.change == Change::slower, t.time == "importance.rsm") << t.time << " " << t.ratio.value;
+    EXPECT_NE(t.change, Change::faster) << t.time << " " << t.ratio.value;
+    EXPECT_NEAR(t.ratio.value, t.time == "importance.rsm" ? 1.05 : 1, 0.005) << t.time;
+  }
+  for (const TimeChange& t : c.times) EXPECT_NE(t.change, Change::faster) << t.case_id;
+  EXPECT_EQ(c.exit_code(), 4);
+  const Comparison back = compare_reports(planted, measured(1), {.ratios = true});
+  for (const TimeChange& t : back.times) EXPECT_NE(t.change, Change::slower) << t.case_id;
+  EXPECT_EQ(back.exit_code(), 0) << comparison_text(back, false);
+}
+
+TEST(Compare, RatiosNameASlowerMethodAndNoOther) {
+  for (const char* method : {"fis", "cut"}) {  // with and without the first case
+    const Comparison c =
+        compare_reports(measured(1), measured(2, {.method = method, .all = 1.1}), {.ratios = true});
+    for (const TimeChange& t : c.times) {
+      const bool is_planted = t.case_id.find(fmt::format("/{}/", method)) != std::string::npos;
+      EXPECT_EQ(t.change == Change::slower, is_planted) << t.case_id << " " << t.ratio.value;
+      EXPECT_NE(t.change, Change::faster) << t.case_id << " " << t.ratio.value;
+    }
+    EXPECT_EQ(c.times.size(), 12u);
+    EXPECT_EQ(c.exit_code(), 4);
+  }
+}
+
+TEST(Compare, FortyNullComparisonsOfRatiosFindNothing) {
+  size_t said = 0;
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    const Comparison c = compare_reports(measured(seed), measured(seed + 100), {.ratios = true});
+    said += not_null(c.passes) + not_null(c.times) > 0;
+  }
+  EXPECT_LE(said, 1u);
+}
+
+// Its interval begins within the noise and ends beyond it, on the side of faster.
+TEST(Compare, WhatMayBeFasterIsNoDoubt) {
+  Comparison c;
+  c.passes = {{"", "", "shade", {0.97, {0.94, 1.0}}, 0.02, 0.9, Change::ambiguous}};
+  EXPECT_EQ(c.exit_code(), 0);
+  c.passes[0].ratio.ci95.hi = 1.03;
+  EXPECT_EQ(c.exit_code(), 5);
+}
+
+TEST(Compare, NoiseThatIsNotKnownIsNotZero) {
+  Report base = measured(1), now = measured(2, {.pass = "shade", .factor = 1.3});
+  base.aa.clear();
+  now.aa.clear();
+  const std::string text = comparison_text(compare_reports(base, now), false);
+  EXPECT_NE(text.find("noise not known"), std::string::npos) << text;
+  EXPECT_EQ(text.find("noise 0"), std::string::npos) << text;
+}
+
 TEST(Compare, ACaseThatFailsNowIsARegression) {
   const Report base = measured(1);
   Report now = base;
@@ -143,6 +205,22 @@ TEST(Compare, ByteEqualKernelsMakeTimesNoise) {
   EXPECT_TRUE(c.byte_equal);
   EXPECT_EQ(c.exit_code(), 0);
   EXPECT_NE(comparison_text(c, false).find("noise"), std::string::npos);
+}
+
+TEST(Compare, NothingOfAReportReachesTheTerminalRaw) {
+  Report base = measured(1);
+  for (CaseResult& c : base.cases) c.id += "\x1b[2J\n";
+  Report now = measured(2, {.pass = "shade", .factor = 1.5});
+  for (CaseResult& c : now.cases) c.id += "\x1b[2J\n";
+  now.cases[3].status = Status::failed;
+  for (const bool markdown : {false, true}) {
+    const std::string text = comparison_text(compare_reports(base, now), markdown);
+    EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;
+    EXPECT_EQ(text.find("\n:"), std::string::npos) << text;
+    EXPECT_NE(text.find("[2J"), std::string::npos) << text;
+  }
+  now.device.name = "\x1b[2J";
+  EXPECT_EQ(comparison_text(compare_reports(base, now), false).find('\x1b'), std::string::npos);
 }
 
 }  // namespace

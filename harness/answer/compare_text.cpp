@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "answer/compare.h"
+#include "base/printable.h"
 #include "report/noise.h"
 
 namespace vsglbench {
@@ -16,13 +17,14 @@ std::string change_percent(double ratio) { return fmt::format("{:+.1f} %", 100 *
 
 Line line_of(const TimeChange& t) {
   const std::string what = t.case_id.empty() ? "pass " + t.time : t.case_id;
-  return {std::abs(std::log(t.ratio.value)), what, std::string(name(t.change)),
+  return {std::abs(std::log(t.ratio.value)), printable(what), std::string(name(t.change)),
           fmt::format("{} [{}, {}], noise {}", change_percent(t.ratio.value), change_percent(t.ratio.ci95.lo),
-                      change_percent(t.ratio.ci95.hi), percent(t.noise))};
+                      change_percent(t.ratio.ci95.hi), t.noise ? percent(*t.noise) : "not known")};
 }
 
 Line line_of(const ErrorChange& e) {
-  return {std::abs(std::log(e.ratio.value)), e.case_id + ", " + e.metric, std::string(name(e.change)),
+  return {std::abs(std::log(e.ratio.value)), printable(e.case_id + ", " + e.metric),
+          std::string(name(e.change)),
           fmt::format("{:.4g} → {:.4g}, {} [{}, {}]", e.base, e.now, change_percent(e.ratio.value),
                       change_percent(e.ratio.ci95.lo), change_percent(e.ratio.ci95.hi))};
 }
@@ -59,15 +61,16 @@ void print_ids(const char* what, const std::vector<std::string>& ids, std::strin
   if (ids.empty()) return;
   constexpr size_t kShown = 5;
   const size_t shown = std::min(ids.size(), kShown);
-  *out += fmt::format("{}: {}{}\n", what,
-                      fmt::join(ids.begin(), ids.begin() + static_cast<ptrdiff_t>(shown), ", "),
+  std::vector<std::string> first(ids.begin(), ids.begin() + static_cast<ptrdiff_t>(shown));
+  std::ranges::transform(first, first.begin(), printable);
+  *out += fmt::format("{}: {}{}\n", what, fmt::join(first, ", "),
                       ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
 }
 
 }  // namespace
 
 std::string comparison_text(const Comparison& c, bool markdown) {
-  if (!c.refusal.empty()) return "not compared: " + c.refusal + "\n";
+  if (!c.refusal.empty()) return "not compared: " + printable(c.refusal) + "\n";
   std::vector<Line> worse, better;
   add_lines(c.passes, &worse, &better);
   add_lines(c.times, &worse, &better);
@@ -85,7 +88,7 @@ std::string comparison_text(const Comparison& c, bool markdown) {
                      counts(c.passes), counts(c.times), counts(c.errors));
   if (c.byte_equal)
     out += "kernels, plugins and driver are byte for byte those of the base: differences of time are noise\n";
-  return out;
+  return printable_lines(out);
 }
 
 }  // namespace vsglbench

@@ -52,25 +52,36 @@ void check_time(const std::string& time) {
              nearest_name(time, names), fmt::join(names, ", "));
 }
 
+std::vector<double> seeds_of(const CaseResult& c, Metric metric) {
+  std::vector<double> out;
+  for (const SeedResult& s : c.seeds) {
+    if (const auto v = s.errors.value(metric)) out.push_back(*v);
+  }
+  return out;
+}
+
+// A report of old does not say so; its seeds do.
+bool is_heavy_tailed(const MetricResult& m, const std::vector<double>& seeds) {
+  return m.heavy_tailed || (!seeds.empty() && std::ranges::max(seeds) > kHeavyTail * median(seeds));
+}
+
+Estimate error_of(const CaseResult& c, const Named& metric, const std::vector<double>& seeds) {
+  const MetricResult& m = (*c.accuracy).*metric.result;
+  if (!is_heavy_tailed(m, seeds)) return {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})};
+  if (m.heavy_tailed) return {*m.median, {*m.least, *m.largest}};
+  return {median(seeds), {std::ranges::min(seeds), std::ranges::max(seeds)}};
+}
+
 // Time must be above 0 for a logarithm; an error of 0 is exact and stays.
 std::optional<Point> point_of(const CaseResult& c, const Named& metric, const std::string& time) {
   if (c.status != Status::ok || !c.accuracy) return std::nullopt;
-  const MetricResult& m = (*c.accuracy).*metric.result;
-  if (!m.value) return std::nullopt;
+  if (!((*c.accuracy).*metric.result).value) return std::nullopt;
   std::optional<Summary> ms = time_of(c, time);
   if (!ms && time == "method") ms = method_time(c.passes);  // a report of old has the passes alone
   if (!ms || !(ms->median > 0)) return std::nullopt;
-  Point p{&c,
-          {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})},
-          {},
-          {ms->median, ms->ci95},
-          m.heavy_tailed,
-          ms->samples.size()};
-  if (m.heavy_tailed) p.error = {*m.median, {*m.least, *m.largest}};
-  for (const SeedResult& s : c.seeds) {
-    if (const auto v = s.errors.value(metric.metric)) p.seeds.push_back(*v);
-  }
-  return p;
+  const std::vector<double> seeds = seeds_of(c, metric.metric);
+  const bool heavy = is_heavy_tailed((*c.accuracy).*metric.result, seeds);
+  return Point{&c, error_of(c, metric, seeds), seeds, {ms->median, ms->ci95}, heavy, ms->samples.size()};
 }
 
 Relation relation(const Interval& ratio, double margin) {
@@ -100,8 +111,18 @@ const MetricResult* metric_of(const Accuracy& accuracy, const std::string& metri
   return m.value ? &m : nullptr;
 }
 
+std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric) {
+  if (!c.accuracy || !metric_of(*c.accuracy, metric)) return std::nullopt;
+  return error_of(c, axis(metric), seeds_of(c, axis(metric).metric));
+}
+
 std::string metric_title(const std::string& metric) { return axis(metric).title; }
 std::string metric_unit(const std::string& metric) { return axis(metric).unit; }
+
+std::string significant(double v, int digits) {
+  const std::string text = fmt::format("{:.{}g}", v, digits);
+  return text.find("e+") == std::string::npos ? text : fmt::format("{:.0f}", v);
+}
 
 std::string time_words(const std::string& time) {
   static const std::map<std::string, std::string> words = {

@@ -1,6 +1,7 @@
 // Operating points: what a case costs and how far it is from the truth, each with its interval.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,15 @@ std::vector<PointGroup> point_groups(const Report& report, const AnswerOptions& 
 // The metric of a case over seeds; null where it has none.
 const MetricResult* metric_of(const Accuracy& accuracy, const std::string& metric);
 
+// A case's error as points have it: mean and interval over seeds, or median and range where they are
+// heavy-tailed, whether or not the report says that they are. Nothing where it has none.
+std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric);
+
 // "SMAPE", "RMSE", …, and the unit after a number: " %" or "".
 std::string metric_title(const std::string& metric);
 std::string metric_unit(const std::string& metric);
+// So many significant digits, and never an exponent above 0: "0.00164", "1.64", "1640".
+std::string significant(double v, int digits);
 // What a time of report/noise.h is, in words: "the whole frame".
 std::string time_words(const std::string& time);
 

@@ -79,5 +79,32 @@ TEST(Budget, SaysWhatIsMissing) {
   EXPECT_NEAR(b.parts[2].increment.value(), 12, 1e-9);
 }
 
+// A report from before heavy tails were told: of N=1024 one seed of four is a spike, the others are better.
+TEST(Prices, SeedsTellHeavyTailsThatTheReportDoesNot) {
+  MadeReport made(1, 0, 0, 16, 4);
+  for (const int n : {256, 1024}) {
+    CaseResult& c = made.add({.method = "vpl",
+                              .parameters = {{"N", n}, {"visibility", "exact"}},
+                              .passes = {{"shade", n / 256.0}},
+                              .error = 2560.0 / n});
+    if (n == 1024) c.seeds[2].errors.rmse *= 50;
+    c.accuracy = accuracy_over_seeds(c.seeds, c.accuracy->reference);
+    c.accuracy->rmse.heavy_tailed = false;
+    c.accuracy->rmse.median = c.accuracy->rmse.least = c.accuracy->rmse.largest = std::nullopt;
+  }
+  const PointGroup group = point_groups(made.report, {.metric = "rmse"}).front();
+  const Point& spiky = group.points[1];
+  EXPECT_TRUE(spiky.heavy_tailed);
+  EXPECT_FALSE(group.points[0].heavy_tailed);
+  EXPECT_DOUBLE_EQ(spiky.error.value, 0.025);
+  EXPECT_DOUBLE_EQ(spiky.error.ci95.lo, 0.025);
+  EXPECT_DOUBLE_EQ(spiky.error.ci95.hi, 1.25);
+  const std::vector<Price> all = prices(group);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NEAR(*all[0].error_per_ms(), 0.025, 1e-12);  // more lights buy exactness
+  EXPECT_NEAR(knob_summaries(group, all).front().error_ratio, 0.25, 1e-12);
+  EXPECT_DOUBLE_EQ(error_of(*spiky.result, "rmse")->value, 0.025);
+}
+
 }  // namespace
 }  // namespace vsglbench

@@ -8,6 +8,7 @@
 #include "answer/front.h"
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/printable.h"
 #include "report/case_names.h"
 #include "report/noise.h"
 
@@ -27,7 +28,7 @@ double number_in(const std::string& text, const std::string& whole, const char* 
   return value;
 }
 
-std::string number(double v) { return v < 1000 ? fmt::format("{:.3g}", v) : fmt::format("{:.0f}", v); }
+std::string number(double v) { return significant(v, 3); }
 
 std::string with_interval(const Estimate& e, const std::string& unit) {
   return fmt::format("{}{} [{}, {}]", number(e.value), unit, number(e.ci95.lo), number(e.ci95.hi));
@@ -46,7 +47,9 @@ class Answer {
     for (size_t i = 0; i < group.points.size(); ++i) {
       if (fits(group.points[i])) fitting_.push_back(i);
     }
-    std::ranges::stable_sort(fitting_, {}, [&](size_t i) { return rank(group_.points[i]); });
+    if (fitting_.empty()) return;
+    tied_ = by_error() ? as_cheap(group_, fitting_) : as_exact(group_, fitting_);
+    best_ = choose(fitting_);
   }
 
   std::string text() const {
@@ -64,16 +67,28 @@ class Answer {
   }
   bool by_error() const { return question_.error.has_value(); }
   bool fits(const Point& p) const {
-    return by_error() ? p.error.value <= *question_.error : p.ms.value <= *question_.ms;
+    if (by_error()) return p.error.value <= *question_.error;
+    return !question_.ms || p.ms.value <= *question_.ms;
   }
   double rank(const Point& p) const { return by_error() ? p.ms.value : p.error.value; }
+  size_t choose(const std::vector<size_t>& points) const {
+    return by_error() ? cheapest_of(group_, points) : most_exact_of(group_, points);
+  }
   const std::string& metric() const { return question_.options.metric; }
   std::string error_text(double v) const { return number(v) + metric_unit(metric()); }
-  std::string label(size_t i) const { return names_.label(*group_.points[i].result); }
+  // Where an error is not above what an exact image would show: ", ≤ floor of 9.8 %".
+  std::string floor_text(double v) const {
+    return v <= group_.error_floor ? fmt::format(" ≤ floor of {}", error_text(group_.error_floor)) : "";
+  }
+  std::string error_told(double v) const { return error_text(v) + floor_text(v); }
+  std::string error_told(const Point& p) const {
+    return with_interval(p.error, metric_unit(metric())) + floor_text(p.error.value);
+  }
+  std::string label(size_t i) const { return printable(names_.label(*group_.points[i].result)); }
 
   std::string where() const {
-    return fmt::format("{}, {} occlusion, {}", group_.scene, group_.visibility == "none" ? "without" : "with",
-                       report_.device.name);
+    return printable(fmt::format("{}, {} occlusion, {}", group_.scene,
+                                 group_.visibility == "none" ? "without" : "with", report_.device.name));
   }
 
   std::string asked() const {
@@ -83,86 +98,130 @@ class Answer {
 
   std::string sentence() const {
     if (fitting_.empty()) return fmt::format("{}: no case has {}; {}", where(), asked(), nearest());
-    const Point& best = group_.points[fitting_.front()];
-    std::string out =
-        fmt::format("{}: for {}, take {}: {} {} in {} ms ({}){}.", where(), asked(), label(fitting_.front()),
-                    metric_title(metric()), with_interval(best.error, metric_unit(metric())), time_text(best),
-                    time_words(question_.options.time), rivals());
+    const Point& best = group_.points[best_];
+    const std::string out = fmt::format("{}: for {}, take {}: {} {} in {} ms ({}){}.", where(), asked(),
+                                        label(best_), metric_title(metric()), error_told(best),
+                                        time_text(best), time_words(question_.options.time), rivals());
     return out + " " + halving(best);
   }
 
   // Where nothing was asked: the least error, and what half of that exactness costs.
   std::string summary() const {
-    const std::vector<size_t> front = front_of(group_);
-    const Point& least = group_.points[front.back()];
-    std::string out = fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(),
-                                  metric_title(metric()), with_interval(least.error, metric_unit(metric())),
-                                  label(front.back()), time_text(least), time_words(question_.options.time));
-    const auto is_near = [&](size_t i) { return group_.points[i].error.value <= 2 * least.error.value; };
-    const size_t cheapest = *std::ranges::find_if(front, is_near);
-    if (cheapest == front.back()) return out + " No cheaper case is within twice that error.";
-    const Point& p = group_.points[cheapest];
-    return out +
-           fmt::format(" Within twice that error {} is the cheapest: {} in {} ms, {:.2g} times as long.",
-                       label(cheapest), error_text(p.error.value), number(p.ms.value),
-                       p.ms.value / least.ms.value);
+    const size_t named = most_exact_of(group_, fitting_), least = front_of(group_).back();
+    return least_error(named, least) + within_twice(named);
+  }
+
+  std::string least_error(size_t named, size_t least) const {
+    const Point &p = group_.points[named], &l = group_.points[least];
+    const std::string &title = metric_title(metric()), words = time_words(question_.options.time);
+    if (named == least) {
+      return fmt::format("{}: the least {} is {} by {}, in {} ms ({}).", where(), title, error_told(p),
+                         label(named), time_text(p), words);
+    }
+    return fmt::format(
+        "{}: for the least {}, take {}: {} in {} ms ({}); {} by {} in {} ms can't be told from that.",
+        where(), title, label(named), error_told(p), time_text(p), words, error_told(l), label(least),
+        time_text(l));
+  }
+
+  std::string within_twice(size_t named) const {
+    const Point& p = group_.points[named];
+    std::vector<size_t> near;  // by time
+    for (const size_t i : fitting_) {
+      if (group_.points[i].error.value <= 2 * p.error.value) near.push_back(i);
+    }
+    if (std::ranges::count(as_cheap(group_, near), named) > 0) {
+      return group_.points[near.front()].ms.value == p.ms.value
+                 ? " No cheaper case is within twice that error."
+                 : " No case that is surely cheaper is within twice that error.";
+    }
+    const size_t cheapest = cheapest_of(group_, near);
+    const Point& c = group_.points[cheapest];
+    return fmt::format(" Within twice that error {} is the cheapest: {} in {} ms, {} times as long.",
+                       label(cheapest), error_told(c.error.value), number(c.ms.value),
+                       significant(c.ms.value / p.ms.value, 2));
   }
 
   std::string nearest() const {
     const auto closest = std::ranges::min_element(
         group_.points, {}, [&](const Point& p) { return by_error() ? p.error.value : p.ms.value; });
-    return fmt::format("the nearest is {} with {} in {} ms.", names_.label(*closest->result),
-                       error_text(closest->error.value), number(closest->ms.value));
+    return fmt::format("the nearest is {} with {} in {} ms.", printable(names_.label(*closest->result)),
+                       error_told(closest->error.value), number(closest->ms.value));
   }
 
-  // Other methods' points that can't be told from the best in what is asked.
+  // Other methods' points that can't be told from the first in what is asked, one a method.
   std::string rivals() const {
     std::vector<std::string> out;
-    std::set<std::string> methods = {group_.points[fitting_.front()].result->method};
-    const Point& best = group_.points[fitting_.front()];
-    for (const size_t i : fitting_) {
-      const Point& p = group_.points[i];
-      const Relation r = by_error() ? compare_costs(p, best, group_.noise) : compare_errors(p, best);
-      if (r == Relation::worse || !methods.insert(p.result->method).second) continue;
-      out.push_back(label(i));
+    std::set<std::string> methods = {group_.points[best_].result->method};
+    for (const size_t i : tied_) {
+      if (methods.insert(group_.points[i].result->method).second) out.push_back(label(i));
     }
     if (out.empty()) return "";
-    return fmt::format("; not to be told apart: {}", fmt::join(out, ", "));
+    return fmt::format("; in {} not to be told apart: {}", by_error() ? "time" : "error",
+                       fmt::join(out, ", "));
   }
 
   std::string halving(const Point& best) const {
     const double half = 0.5 * best.error.value;
-    const auto ms = time_to_reach(group_, front_of(group_), half);
-    if (ms) {
-      return fmt::format("Halving that error, to {}, takes {} ms, {:.2g} times as long.", error_text(half),
-                         number(*ms), *ms / best.ms.value);
+    const std::vector<size_t> front = front_of(group_);
+    if (const auto ms = time_to_reach(group_, front, half)) {
+      return fmt::format("Halving that error, to {}, takes {} ms, {} times as long ({}).", error_told(half),
+                         number(*ms), significant(*ms / best.ms.value, 2), ends(front, half));
     }
-    const size_t last = front_of(group_).back();
+    const size_t last = front.back();
     const Point& least = group_.points[last];
     return fmt::format("Half that error, {}, is reached by no case measured; the least is {} by {} in {} ms.",
-                       error_text(half), error_text(least.error.value), label(last), number(least.ms.value));
+                       error_text(half), error_told(least.error.value), label(last), number(least.ms.value));
+  }
+
+  // What an error is read off between: "between fis N=64, 20 % in 3 ms, and cut N=64, 8 % in 9 ms".
+  std::string ends(const std::vector<size_t>& front, double error) const {
+    const auto told = [&](size_t i) {
+      const Point& p = group_.points[i];
+      return fmt::format("{}, {} in {} ms", label(i), error_told(p.error.value), number(p.ms.value));
+    };
+    const auto [left, right] = *around_error(group_, front, error);
+    return left == right ? "by " + told(left) : fmt::format("between {}, and {}", told(left), told(right));
+  }
+
+  // The case named, then each other method's by the same rule, best first.
+  std::vector<size_t> best_of_methods() const {
+    std::map<std::string, std::vector<size_t>> others;
+    for (const size_t i : fitting_) others[group_.points[i].result->method].push_back(i);
+    others.erase(group_.points[best_].result->method);
+    std::vector<size_t> out = {best_};
+    for (const auto& [method, points] : others) out.push_back(choose(points));
+    std::stable_sort(out.begin() + 1, out.end(),
+                     [&](size_t a, size_t b) { return rank(group_.points[a]) < rank(group_.points[b]); });
+    return out;
+  }
+
+  std::string error_cell(size_t i) const {
+    const Estimate& e = group_.points[i].error;
+    return with_interval(e, "") + (e.value <= group_.error_floor ? " ≤ floor" : "");
   }
 
   // Each method's best, and how much more it costs than the first.
   std::string table() const {
     std::string out;
-    size_t width = 6;
-    std::vector<size_t> rows;
-    std::set<std::string> methods;
-    for (const size_t i : fitting_) {
-      if (!methods.insert(group_.points[i].result->method).second) continue;
-      rows.push_back(i);
+    size_t width = 6, error_width = 24;
+    const std::vector<size_t> rows = best_of_methods();
+    for (const size_t i : rows) {
       width = std::max(width, label(i).size());
+      error_width = std::max(error_width, error_cell(i).size());
     }
-    out += fmt::format("  {:<{}}  {:>24}  {:>24}  {:>8}\n", "method", width,
-                       metric_title(metric()) + metric_unit(metric()) + " [95 %]", "ms [95 %]",
+    out += fmt::format("  {:<{}}  {:>{}}  {:>24}  {:>8}\n", "method", width,
+                       metric_title(metric()) + metric_unit(metric()) + " [95 %]", error_width, "ms [95 %]",
                        by_error() ? "× time" : "× error");
-    const double first = rank(group_.points[rows.front()]);
+    const double first = rank(group_.points[best_]);
     for (const size_t i : rows) {
       const Point& p = group_.points[i];
-      out += fmt::format("  {:<{}}  {:>24}  {:>24}  {:>8}\n", label(i), width, with_interval(p.error, ""),
+      out += fmt::format("  {:<{}}  {:>{}}  {:>24}  {:>8}\n", label(i), width, error_cell(i), error_width,
                          time_text(p), first > 0 ? fmt::format("{:.2f}", rank(p) / first) : "-");
     }
+    if (std::ranges::any_of(rows,
+                            [&](size_t i) { return !floor_text(group_.points[i].error.value).empty(); }))
+      out += fmt::format("  floor: the reference's own noise, {}\n", error_text(group_.error_floor));
     if (!names_.shared().empty()) out += fmt::format("  all: {}\n", names_.shared());
     out += group_.noise_known
                ? fmt::format("  times differ by up to {} where nothing does (A/A)\n", percent(group_.noise))
@@ -174,7 +233,9 @@ class Answer {
   const Question& question_;
   const PointGroup& group_;
   CaseNames names_;
-  std::vector<size_t> fitting_;  // best first
+  std::vector<size_t> fitting_;  // within what is asked; all where nothing is
+  std::vector<size_t> tied_;     // of these, not to be told from the first in what is asked
+  size_t best_ = 0;              // that is named
 };
 
 // One group a scene: the full visibility where there is one, or what is asked.
@@ -200,6 +261,18 @@ std::vector<const PointGroup*> groups_asked(const std::vector<PointGroup>& group
   return out;
 }
 
+std::string why_no_points(const Report& report, const std::string& metric) {
+  const auto failed = std::ranges::count(report.cases, Status::failed, &CaseResult::status);
+  if (report.cases.empty()) return "the report has no case";
+  if (std::ranges::none_of(report.cases, [](const CaseResult& c) { return c.status == Status::ok; })) {
+    return fmt::format("no case of this report is ok: {} of {} failed{}; 'vsglbench table' says why", failed,
+                       report.cases.size(),
+                       static_cast<size_t>(failed) < report.cases.size() ? ", the others were skipped" : "");
+  }
+  return fmt::format("no case of this report has both {} and a time; run a config that measures frames",
+                     metric_title(metric));
+}
+
 }  // namespace
 
 void ask_error(const std::string& text, Question* question) {
@@ -223,16 +296,13 @@ void ask_time(const std::string& text, Question* question) {
 
 std::string reply(const Report& report, const Question& question) {
   const std::vector<PointGroup> groups = point_groups(report, question.options);
-  if (groups.empty())
-    throw fail(ErrorKind::usage,
-               "no case of this report has both {} and a time; run a config that measures frames",
-               metric_title(question.options.metric));
+  if (groups.empty()) throw fail(ErrorKind::usage, "{}", why_no_points(report, question.options.metric));
   std::string out;
   for (const PointGroup* group : groups_asked(groups, question)) {
     if (!out.empty()) out += "\n";
     out += Answer(report, question, *group).text();
   }
-  return out;
+  return printable_lines(out);
 }
 
 }  // namespace vsglbench

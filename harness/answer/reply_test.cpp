@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "answer/made_report.h"
 
 namespace vsglbench {
@@ -67,6 +69,102 @@ TEST(Reply, NamesTheBestWithinATime) {
   EXPECT_TRUE(has(text, "fis N=256")) << text;
 }
 
+// mfis is 4 ms cheaper than cut and far less exact; the A/A pair differs by more than that.
+Report near_in_time(double noise) {
+  MadeReport made(1, 0, 0);
+  const Json parameters = {{"N", 64}, {"visibility", "exact"}};
+  made.add({.method = "mfis", .parameters = parameters, .passes = {{"shade", 785}}, .error = 27.9});
+  made.add({.method = "cut", .parameters = parameters, .passes = {{"shade", 789}}, .error = 17.1});
+  made.add({.method = "vpl", .parameters = parameters, .passes = {{"shade", 2000}}, .error = 14});
+  if (noise > 0) made.report.aa = {{"box", "", "", {{"method", {}, noise}}}};
+  return made.report;
+}
+
+TEST(Reply, OfThoseAsCheapTheMostExactIsNamed) {
+  Question q;
+  ask_error("smape<=30", &q);
+  const std::string text = reply(near_in_time(0.02), q);
+  EXPECT_TRUE(has(text, "take cut: SMAPE 17.1 %")) << text;
+  EXPECT_TRUE(has(text, "in time not to be told apart: mfis")) << text;
+  EXPECT_TRUE(has(reply(near_in_time(0.02), {}), "Within twice that error cut is the cheapest"));
+  EXPECT_TRUE(has(reply(near_in_time(2), {}), "No case that is surely cheaper is within twice that error."));
+  // 4 ms of 785 are a difference where nothing is noisy: 0.51 %.
+  MadeReport quiet(1, 0, 0);
+  quiet.report = near_in_time(0.0001);
+  EXPECT_TRUE(has(reply(quiet.report, q), "take mfis: SMAPE 27.9 %")) << reply(quiet.report, q);
+}
+
+TEST(Reply, OfThoseAsExactTheCheapestIsNamed) {
+  MadeReport made(1, 0, 0);
+  const auto add = [&](const char* method, double ms, double error, double spread) {
+    CaseResult& c = made.add({.method = method,
+                              .parameters = {{"N", 64}, {"visibility", "exact"}},
+                              .passes = {{"shade", ms}},
+                              .error = error});
+    for (size_t s = 0; s < c.seeds.size(); ++s) c.seeds[s].errors.smape *= 1 + (s % 2 ? spread : -spread);
+    c.accuracy = accuracy_over_seeds(c.seeds, c.accuracy->reference);
+  };
+  add("vsl", 90, 10, 0.2);
+  add("cut", 10, 10.5, 0);
+  add("fis", 5, 30, 0);
+  add("mfis", 8, 40, 1 - 1e-6);  // of seeds that far apart nothing can be told, but fis is before it in both
+  Question q;
+  ask_time("100ms", &q);
+  const std::string text = reply(made.report, q);
+  EXPECT_TRUE(has(text, "take cut: SMAPE 10.5 %")) << text;
+  EXPECT_TRUE(has(text, "in error not to be told apart: mfis, vsl")) << text;
+  const std::string open = reply(made.report, {});
+  EXPECT_TRUE(has(open, "for the least SMAPE, take cut: 10.5 % [")) << open;
+  EXPECT_TRUE(has(open, "10 % [8.")) << open;
+  EXPECT_TRUE(has(open, "by vsl in 90 [90, 90] ms can't be told from that")) << open;
+}
+
+TEST(Reply, SaysWhatIsUnderTheReferencesFloor) {
+  Report report = near_in_time(0);
+  for (CaseResult& c : report.cases) c.accuracy->reference.noise_floor_smape = 20;
+  Question q;
+  ask_error("smape<=20", &q);
+  const std::string text = reply(report, q);
+  EXPECT_TRUE(has(text, "SMAPE 17.1 % [17.1, 17.1] ≤ floor of 20 % in 789")) << text;
+  EXPECT_TRUE(has(text, "17.1 [17.1, 17.1] ≤ floor ")) << text;
+  EXPECT_TRUE(has(text, "floor: the reference's own noise, 20 %")) << text;
+  EXPECT_TRUE(has(reply(report, {}), "the least SMAPE is 14 % [14, 14] ≤ floor of 20 % by vpl"));
+  EXPECT_FALSE(has(reply(near_in_time(0), q), "floor"));
+}
+
+TEST(Reply, NamesBothEndsOfWhatHalvingCosts) {
+  Question q;
+  ask_error("smape<=27", &q);
+  MadeReport made(1, 0, 0);
+  for (const auto& [method, ms, error] :
+       {std::tuple{"fis", 2.0, 25.0}, {"cut", 4.0, 16.0}, {"vsl", 16.0, 4.0}})
+    made.add({.method = method,
+              .parameters = {{"N", 64}, {"visibility", "exact"}},
+              .passes = {{"shade", ms}},
+              .error = error});
+  EXPECT_TRUE(has(reply(made.report, q), "times as long (between cut, 16 % in 4 ms, and vsl, 4 % in 16 ms)."))
+      << reply(made.report, q);
+}
+
+TEST(Reply, NumbersHaveNoExponent) {
+  EXPECT_EQ(significant(1640, 3), "1640");
+  EXPECT_EQ(significant(164.4, 2), "164");
+  EXPECT_EQ(significant(999.7, 3), "1000");
+  EXPECT_EQ(significant(0.00164, 3), "0.00164");
+  EXPECT_EQ(significant(16.44, 3), "16.4");
+}
+
+TEST(Reply, SaysThatAllCasesFailed) {
+  Report report = near_in_time(0);
+  for (CaseResult& c : report.cases) c.status = Status::failed;
+  try {
+    reply(report, {});
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_TRUE(has(e.what(), "3 of 3 failed")) << e.what();
+  }
+}
+
 TEST(Reply, SaysWhatComesNearestWhereNothingFits) {
   Question q;
   ask_error("smape <= 0.5 %", &q);
@@ -89,6 +187,20 @@ TEST(Reply, RefusesWhatIsNoQuestion) {
     FAIL();
   } catch (const Error& e) {
     EXPECT_TRUE(has(e.what(), "did you mean 'box'")) << e.what();
+  }
+}
+
+TEST(Reply, NothingOfAReportReachesTheTerminalRaw) {
+  Report report = near_in_time(0);
+  report.device.name = "a\x1b[31m\ndevice";
+  for (CaseResult& c : report.cases) c.scene = "box\x1b]0;title\a";
+  for (CaseResult& c : report.cases) c.method += "\x1b[2J";
+  Question q;
+  for (int asked = 0; asked < 2; ++asked) {
+    const std::string text = reply(report, q);
+    EXPECT_EQ(text.find_first_of("\x1b\a"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, "a [31m device")) << text;
+    ask_error("smape<=30", &q);
   }
 }
 

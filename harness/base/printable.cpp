@@ -1,5 +1,7 @@
 #include "base/printable.h"
 
+#include <algorithm>
+
 namespace vsglbench {
 
 std::string printable(std::string text) {
@@ -14,6 +16,17 @@ std::string printable(std::string text) {
     if (length > 0) text.replace(i, length, " ");
   }
   return text;
+}
+
+std::string printable_lines(const std::string& text) {
+  std::string out;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    out += printable(text.substr(at, end - at));
+    if (end < text.size()) out += '\n';
+    at = end + 1;
+  }
+  return out;
 }
 
 }  // namespace vsglbench

@@ -33,11 +33,19 @@ void add_answer_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("answer", "which method and settings reach an error, or are best within a time");
   command->footer(
-      "One sentence and a small table a scene: the cheapest case that reaches the error (the best within the "
-      "time), "
-      "what\nhalving the error costs, and every method's own best. Times are medians, errors means over "
-      "seeds, with 95 % "
-      "intervals.\nWhat halving costs is read off the front in log-log; nothing is extrapolated.\n"
+      "One sentence and a small table a scene: the case that is named, what halving its error costs, and "
+      "every "
+      "method's own.\n"
+      "Which is named: with --error, of the cases that reach it and whose time can't be told from the "
+      "cheapest's, the most exact;\n"
+      "with --time, of the cases within it whose error can't be told from the least, the cheapest. What lies "
+      "within the\nintervals or the A/A noise can't be told. Without either, the same of all cases, and of "
+      "those within twice that error.\n"
+      "Times are medians, errors means over seeds (medians and ranges where one seed stands far out), with "
+      "95 % intervals.\n"
+      "\"≤ floor\": not above the noise of the reference itself.\n"
+      "What halving costs is read off the front in log-log between the two cases named; nothing is "
+      "extrapolated.\n"
       "Example: vsglbench answer reports/front-lavapipe --scene cornell --error 'smape<=10'\n"
       "         vsglbench answer reports/front-lavapipe --time 50ms --metric rmse");
   command->add_option("report", options->report, "report.json, or its folder")->required();

@@ -21,10 +21,12 @@ TEST_F(CliTest, EveryCommandHasHelpWithAnExample) {
   const Finished f = run({"--help"});
   EXPECT_EQ(f.code, 0);
   EXPECT_TRUE(contains(f.out, "Exit codes: 0"));
+  EXPECT_TRUE(contains(f.out, "4 'compare' found a regression, 5 'compare' refuses"));
 }
 
 TEST_F(CliTest, BadUsageIsOneLineAndExitCode2) {
   expect_refused(run({}), 2, "subcommand is required");
+  EXPECT_FALSE(contains(run({"kernls"}).err, "'kernels'"));  // a name of old, which is not shown
   expect_refused(run({"rnu", "x"}), 2, "no command 'rnu'; did you mean 'run'?");
   expect_refused(run({"run"}), 2, "config is required");
   expect_refused(run({"run", "quick", "--out", "o\xff"}), 2, "argument 4 is not UTF-8");

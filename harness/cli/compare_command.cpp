@@ -27,13 +27,17 @@ void add_compare_command(CLI::App& app, CommandResult* result) {
       "Errors: seeds "
       "are pairs.\nRefused: other formulas, other references, other devices (unless --ratios or "
       "--other-device).\n"
-      "Exit codes: 0 nothing is worse, 4 something is, 5 refused, or a pass can't be told.\n"
+      "With byte-equal kernels, plugins and driver on one device, differences of time are noise: they are "
+      "listed, and the exit code is 0\nunless errors are worse.\n"
+      "Exit codes: 0 nothing is worse, 4 something is, 5 refused, or a pass may be slower and can't be "
+      "told.\n"
       "Example: vsglbench compare reports/front-lavapipe reports/out/front");
   command->add_option("base", options->base, "report.json, or its folder")->required();
   command->add_option("new", options->now, "report.json, or its folder")->required();
   command->add_flag(
       "--ratios", options->options.ratios,
-      "compare each case's time over that of its scene's first case, which holds on any machine");
+      "compare times over what their whole scene takes longer (the median over the stages of all cases), "
+      "which holds on any machine");
   command->add_flag("--other-device", options->options.other_device,
                     "compare times of two devices all the same");
   command->add_flag("--markdown", options->markdown, "as Markdown, for a pull request");

@@ -31,12 +31,15 @@ int report(const std::string& message, int code) {
 
 // What is wrong with the command line, on one line; a misspelt command is met with the nearest.
 int report_usage(const CLI::App& app, const CLI::ParseError& e, const std::vector<std::string>& arguments) {
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  std::vector<std::string> known, shown;  // those without a group are not for users
+  for (const CLI::App* command : app.get_subcommands({})) {
+    known.push_back(command->get_name());
+    if (!command->get_group().empty()) shown.push_back(command->get_name());
+  }
   const std::string first = arguments.size() > 1 ? arguments[1] : "";
   const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
   if (!first.empty() && first.front() != '-' && !is_command) {
-    return report(fmt::format("no command '{}'{}", first, suggestion(first, known)),
+    return report(fmt::format("no command '{}'{}", first, suggestion(first, shown)),
                   exit_code(ErrorKind::usage));
   }
   const std::string help = is_command ? "vsglbench " + first + " --help" : "vsglbench --help";
@@ -82,7 +85,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene, plugin or output, 3 no "
       "usable "
-      "device.\n"
+      "device,\n4 'compare' found a regression, 5 'compare' refuses, or a pass may be slower and can't be "
+      "told.\n"
       "Example: vsglbench run configs/quick.json");
   bool quiet = false, verbose = false;
   app.add_flag("-q,--quiet", quiet, "only warnings, errors and the table");

@@ -72,6 +72,11 @@ void write_report(const fs::path& path, const Report& report) {
 }
 
 Report read_report(const fs::path& path) {
+  std::error_code ec;
+  if (fs::exists(path, ec) && !fs::is_regular_file(path, ec) && !fs::is_directory(path, ec)) {
+    throw fail(ErrorKind::config, "{}: is a pipe or a device, not a file; write the report into a file first",
+               path.string());
+  }
   const JsonDocument doc = JsonDocument::load(path, ErrorKind::config);
   check_schema(doc, report_schema());
   return report_from_json(doc.root());

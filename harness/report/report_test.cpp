@@ -1,6 +1,7 @@
 #include "report/report.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -125,6 +126,20 @@ TEST_F(ReportFile, ADamagedFileIsOneClearLine) {
   write_text(path_, broken);
   EXPECT_NE(message_of([&] { read_report(path_); }).find("did you mean 'failed'?"), std::string::npos);
   EXPECT_NE(message_of([&] { read_report(dir_ / "absent.json"); }), "no error");
+}
+
+// Which would be waited on for a writer.
+TEST_F(ReportFile, APipeIsRefused) {
+  const fs::path pipe = dir_ / "pipe.json";
+  fs::create_directories(dir_);
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    read_report(pipe);
+    ADD_FAILURE() << "read";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.exit_code(), 2);
+    EXPECT_NE(std::string(e.what()).find("is a pipe or a device, not a file"), std::string::npos) << e.what();
+  }
 }
 
 TEST_F(ReportFile, KeepsListsOfSamplesOnOneLine) {

@@ -141,6 +141,15 @@ TEST(TableFormats, CsvHasEveryNumberAndQuotesCommas) {
   for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
 }
 
+TEST(TableFormats, CsvHoldsNothingThatSteersATerminal) {
+  Report report = three();
+  report.cases[0].id += "\x1b[2J\n";
+  for (const char* across : {"", "method"}) {
+    const std::string csv = csv_table(report, {.across = across});
+    EXPECT_EQ(csv.find('\x1b'), std::string::npos) << csv;
+  }
+}
+
 TEST(TableFormats, LatexEscapesWhatItWouldTakeForItsOwn) {
   Report r = three();
   r.cases[0].id = "cornell/mfis/N=64,a_b=50%,c=#1&{x}$^~\\";

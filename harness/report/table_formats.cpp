@@ -10,8 +10,13 @@ namespace {
 
 std::string digits(const std::optional<double>& v) { return v ? fmt::format("{}", *v) : ""; }
 
+std::string printable_row(TableCells cells) {
+  std::ranges::transform(cells, cells.begin(), printable);
+  return csv_row(cells);
+}
+
 std::string across_csv(const TableLayout& table) {
-  std::string out = csv_row([&] {
+  std::string out = printable_row([&] {
     TableCells heads = {"scene"};
     heads.insert(heads.end(), table.heads.begin(), table.heads.end());
     return heads;
@@ -19,7 +24,7 @@ std::string across_csv(const TableLayout& table) {
   for (const TableLine& line : table.lines) {
     TableCells cells = {line.scene, line.label};
     cells.insert(cells.end(), line.cells.begin(), line.cells.end());
-    out += csv_row(cells);
+    out += printable_row(cells);
   }
   return out;
 }
@@ -69,7 +74,7 @@ std::string csv_table(const Report& report, const TableOptions& options) {
   for (const Column& column : contents.columns) {
     for (const char* end : {"", "_lo", "_hi"}) heads.push_back(column.name + end);
   }
-  std::string out = csv_row(heads);
+  std::string out = printable_row(heads);
   for (const CaseResult* c : contents.cases) {
     TableCells cells = {c->scene, c->id, c->method, std::string(name(c->status))};
     for (const Column& column : contents.columns) {
@@ -84,7 +89,7 @@ std::string csv_table(const Report& report, const TableOptions& options) {
       cells.push_back(interval ? fmt::format("{}", interval->lo) : "");
       cells.push_back(interval ? fmt::format("{}", interval->hi) : "");
     }
-    out += csv_row(cells);
+    out += printable_row(cells);
   }
   return out;
 }
