@@ -15,6 +15,7 @@ struct CommandResult {
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_list_command(CLI::App& app, CommandResult* result);
 void add_reference_command(CLI::App& app, CommandResult* result);
+void add_effects_command(CLI::App& app);
 void add_doctor_command(CLI::App& app, CommandResult* result);
 void add_check_method_command(CLI::App& app, CommandResult* result);
 void add_new_method_command(CLI::App& app, CommandResult* result);

@@ -10,6 +10,7 @@
 #include "run/case_key_docs.h"
 #include "run/config.h"
 #include "run/runner.h"
+#include "scene/effects.h"
 #include "scene/scene_file.h"
 
 namespace vsglbench {
@@ -87,6 +88,13 @@ std::string number_text(const Json& value) {
   return value.is_number() ? fmt::format("{}", value.get<double>()) : value.dump();
 }
 
+Json list_effects() {
+  Json out = Json::array();
+  for (const std::string& name : effect_names())
+    out.push_back({{"name", name}, {"summary", description(effect_named(name))}});
+  return out;
+}
+
 void print_text(const Json& rows) {
   size_t width = 0;
   for (const auto& row : rows) width = std::max(width, row["name"].get<std::string>().size());
@@ -124,11 +132,11 @@ void add_list_command(CLI::App& app, CommandResult*) {
   auto what = std::make_shared<std::string>();
   auto assets = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("list", "methods, scenes, configs, their keys, or devices");
+  CLI::App* command = app.add_subcommand("list", "methods, scenes, configs, their keys, effects, or devices");
   command->footer("Example: vsglbench list methods --json");
-  command->add_option("what", *what, "methods, scenes, configs, keys or devices")
+  command->add_option("what", *what, "methods, scenes, configs, keys, effects or devices")
       ->required()
-      ->check(CLI::IsMember({"methods", "scenes", "configs", "keys", "devices"}));
+      ->check(CLI::IsMember({"methods", "scenes", "configs", "keys", "effects", "devices"}));
   command->add_option("--assets", *assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_flag("--json", *json, "as JSON");
   command->callback([=] {
@@ -136,6 +144,7 @@ void add_list_command(CLI::App& app, CommandResult*) {
                       : *what == "scenes"  ? list_all_scenes(*assets)
                       : *what == "configs" ? list_configs()
                       : *what == "keys"    ? list_case_keys()
+                      : *what == "effects" ? list_effects()
                                            : list_all_devices();
     if (*json) {
       fmt::print("{}\n", rows.dump(2));

@@ -109,6 +109,7 @@ int main(int argc, char** argv) {
   add_run_command(app, arguments, &result);
   add_list_command(app, &result);
   add_reference_command(app, &result);
+  add_effects_command(app);
   add_doctor_command(app, &result);
   add_check_method_command(app, &result);
   add_new_method_command(app, &result);

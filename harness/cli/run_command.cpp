@@ -89,6 +89,16 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
           "KEY=VALUE, such as N=64, visibility=none or rsm=[64,128]: in place of what the config says "
           "of this key for any method; may come again (keys: vsglbench list keys)")
       ->allow_extra_args(false);
+  for (const auto& [name, help] :
+       {std::pair("force_effects", "all, or NAME,…: simulate these though the scene does not call for them"),
+        std::pair("skip_effects",
+                  "all, or NAME,…: leave these out though it does (vsglbench effects SCENE)")}) {
+    const std::string key = name;
+    std::string option = "--" + key;
+    std::ranges::replace(option, '_', '-');
+    command->add_option_function<std::string>(
+        option, [=](const std::string& effects) { options->set.push_back(key + "=" + effects); }, help);
+  }
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device,
                       "Vulkan device: index, UUID, PCI address or part of its name");

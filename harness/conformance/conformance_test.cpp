@@ -249,7 +249,7 @@ TEST(Conformance, AParameterThatIsNotDeclaredIsNamed) {
 }
 
 TEST(Conformance, PowerFromNothingIsFound) {
-  expect(Fault::power_from_nothing, {"lights"},
+  expect(Fault::power_from_nothing, {"lights", "image"},
          "half rsm 7×5, N = 35, PDF uniform, no surface anywhere: light 0 has a power of ");
 }
 

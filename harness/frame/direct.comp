@@ -30,5 +30,5 @@ void main() {
   float depth = dot(lit.xyz - lamp.position, lamp.forward);
   float texel = 2.0 * along * max(lamp.extent.x / float(lamp.width), lamp.extent.y / float(lamp.height));
   if (lit.w > 0.0 && z > depth * 1.01 + 2.0 * texel) return;
-  direct[pixel] = vec4(lamp.power * irradiance_scale * brdf_cosine(t.surface, to_light), 1.0);
+  direct[pixel] = vec4(lamp.power * irradiance_scale * brdf_cosine(t.surface, to_light, SURFACE_LOBES), 1.0);
 }

@@ -1,6 +1,8 @@
 #include "frame/frame.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "base/error.h"
 
@@ -103,7 +105,8 @@ Image Frame::render_direct() {
   parts_.halves.draw(recorder_);
   recorder_.pass({.stage = PassStage::direct}, [&] {
     recorder_.dispatch(
-        stage.kernels.get(frame_kernel("direct.comp")),
+        stage.kernels.get(frame_kernel("direct.comp"),
+                          permutation(parts_.parameters.effects, Half::gbuffer, Half::gbuffer)),
         {seen.maps, *rsm().field_maps().position, out, parts_.halves.emitter_buffer(Half::rsm)}, seen.emitter,
         groups_for(seen.emitter.width, 8), groups_for(seen.emitter.height, 8));
   });
@@ -112,6 +115,39 @@ Image Frame::render_direct() {
   const auto texels = out.download<glm::vec4>(seen.texels());
   std::ranges::transform(texels, image.pixels.begin(), [](const glm::vec4& t) { return glm::vec3(t); });
   return image;
+}
+
+size_t Frame::method_kernels() const {
+  std::set<const Kernel*> kernels;
+  for (const LightGenerator* generator : parts_.generators())
+    kernels.insert(generator->context().kernels().begin(), generator->context().kernels().end());
+  return kernels.size();
+}
+
+size_t Frame::method_bytes() const {
+  std::map<std::string, size_t> bytes;
+  for (const LightGenerator* generator : parts_.generators()) {
+    for (const auto& [name, scratch] : generator->context().scratch_buffers())
+      bytes[name] = std::max(bytes[name], scratch.bytes);
+  }
+  size_t total = 0;
+  for (const auto& [name, size] : bytes) total += size;
+  return total;
+}
+
+size_t Frame::memory_bytes() const {
+  constexpr size_t depth = 4, rgba = sizeof(glm::vec4);
+  size_t total = method_bytes();
+  for (const Half half : {Half::gbuffer, Half::rsm}) {
+    const size_t maps = parts_.halves.field(half, nullptr).maps.bindings().size();
+    total += parts_.halves.texels(half) * (maps * rgba + depth);
+    if (parts_.importance) total += parts_.importance->pdf_bytes(half);
+    if (const HalfLights* lights = parts_.lights_on(half)) total += lights->bytes();
+  }
+  const uint64_t pixels = parts_.halves.texels(Half::gbuffer);
+  if (parts_.parameters.visibility == Visibility::exact)
+    total += light_count() * (pixels + 31) / 32 * sizeof(uint32_t);
+  return total + pixels * rgba;
 }
 
 }  // namespace vsglbench

@@ -52,8 +52,11 @@ class Frame {
   LightShapes light_shapes() const { return parts_.generator.method().shapes(Half::rsm); }
   bool uses_importance() const { return parts_.importance.has_value(); }
   // Kernels and scratch memory that the method asked for.
-  size_t method_kernels() const { return parts_.generator.context().kernel_count(); }
-  size_t method_bytes() const { return parts_.generator.context().scratch_bytes(); }
+  size_t method_kernels() const;
+  size_t method_bytes() const;
+  // What a frame works with beside the scene: deferred targets, PDFs, lights, the method's scratch memory,
+  // bits of visibility and the image; shadow maps are not counted.
+  size_t memory_bytes() const;
   const DeferredTargets& gbuffer() const { return parts_.halves.targets(Half::gbuffer); }
   const DeferredTargets& rsm() const { return parts_.halves.targets(Half::rsm); }
   const gpu::Emitter& camera() const { return parts_.halves.emitter(Half::gbuffer); }

@@ -7,6 +7,7 @@
 
 #include "frame/shading.h"
 #include "frame/visibility.h"
+#include "scene/effects.h"
 
 namespace vsglbench {
 
@@ -30,6 +31,12 @@ struct FrameParameters {
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
   uint32_t progressive = 1;
+  // What is not among them is left out: passes, channels, lobes and branches of shaders
+  // (frame/permutation.h).
+  EffectSet effects = EffectSet::all();
+  // What a case asks for against what its scene calls for: in `effects` of a run are those that the scene
+  // needs and the forced ones, without the skipped ones.
+  EffectSet force_effects = EffectSet::none(), skip_effects = EffectSet::none();
   // Every pass is submitted by itself and what it wrote is looked at: see Frame::bad_output(). Times of such
   // a frame are not comparable.
   bool check_passes = false;

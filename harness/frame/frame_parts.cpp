@@ -14,17 +14,30 @@ const FrameParameters& checked(const FrameParameters& p, const MethodInfo& metho
   return p;
 }
 
+FrameParameters without_visibility_where_nothing_occludes(FrameParameters p) {
+  if (!p.effects.has(Effect::occlusion)) p.visibility = Visibility::none;
+  return p;
+}
+
 }  // namespace
 
 FrameParts::FrameParts(Stage& s, const MethodInfo& method, const Json& method_parameters,
                        const FrameParameters& p, ExactVisibility exact)
     : stage(s),
-      parameters(p),
-      generator(s, method, method_parameters, p.shading),
-      halves(s, p.width, p.height, checked(p, method).rsm),
+      parameters(without_visibility_where_nothing_occludes(p)),
+      generator(s, method, method_parameters, p.shading, p.effects, Half::rsm),
+      halves(s, p.width, p.height, checked(p, method).rsm, p.effects),
       lights(s, halves, generator, Half::rsm, p.lights),
       shade(s, halves, lights, parameters, std::move(exact)) {
-  if (generator.method().uses_importance()) importance.emplace(s, halves, generator, parameters);
+  if (generator.method().uses_importance())
+    importance.emplace(s, halves, method, method_parameters, parameters);
+}
+
+std::vector<const LightGenerator*> FrameParts::generators() const {
+  std::vector<const LightGenerator*> out = {&generator};
+  if (parameters.importance == Importance::own && importance_lights())
+    out.push_back(&importance_lights()->generator());
+  return out;
 }
 
 }  // namespace vsglbench

@@ -25,6 +25,8 @@ struct FrameParts {
 
   // On the G-buffer; null where there are none.
   const HalfLights* importance_lights() const { return importance ? importance->lights() : nullptr; }
+  // The method under test, once a half on which it makes lights.
+  std::vector<const LightGenerator*> generators() const;
   const HalfLights* lights_on(Half half) const { return half == Half::rsm ? &lights : importance_lights(); }
 };
 

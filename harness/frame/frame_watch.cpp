@@ -1,5 +1,6 @@
 #include "frame/frame_watch.h"
 
+#include <algorithm>
 #include <map>
 
 #include "method/filtered_sampling.h"
@@ -9,10 +10,12 @@ namespace {
 
 std::string unwritten(const HalfLights* lights) {
   if (!lights) return "";
-  const LightKindInfo& kind = info_of(lights->kind());
-  const size_t words = kind.bytes / sizeof(uint32_t);
-  const Unwritten found =
-      find_unwritten(lights->buffer().download<uint32_t>(lights->count() * words), words, kind.unused);
+  const std::vector<size_t> words = record_words(lights->kind(), lights->lobes());
+  std::vector<size_t> unused;  // among the record's own words
+  for (size_t i = 0; i < words.size(); ++i)
+    if (std::ranges::count(info_of(lights->kind()).unused, words[i]) > 0) unused.push_back(i);
+  const Unwritten found = find_unwritten(lights->buffer().download<uint32_t>(lights->count() * words.size()),
+                                         words.size(), unused);
   const PassId pass{PassStage::generate, lights->half(), ""};
   if (found.records == 0) return "";
   if (found.records < lights->count())

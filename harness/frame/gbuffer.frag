@@ -1,6 +1,23 @@
-// A surface as scene/surface.h defines it, seen from the eye or from the light.
+// A surface as scene/surface.h defines it, seen from the eye or from the light, by what the scene calls for
+// (frame/permutation.h).
 #version 460
 #include "types.h"
+#include "shading_normal.glsl"
+#ifndef BASE_COLOR_TEXTURES
+#define BASE_COLOR_TEXTURES 1
+#endif
+#ifndef METALLIC_ROUGHNESS_TEXTURES
+#define METALLIC_ROUGHNESS_TEXTURES 1
+#endif
+#ifndef NORMAL_MAPS
+#define NORMAL_MAPS 1
+#endif
+#ifndef SMOOTH_NORMALS
+#define SMOOTH_NORMALS 1
+#endif
+#ifndef ALPHA_MASKS
+#define ALPHA_MASKS 1
+#endif
 layout(set = 0, binding = 0) uniform sampler2D base_color_map;  // sRGB
 layout(set = 0, binding = 1) uniform sampler2D metallic_roughness_map;
 layout(set = 0, binding = 2) uniform sampler2D normal_map;
@@ -12,31 +29,60 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 0) out vec4 out_position;
 layout(location = 1) out vec4 out_normal;
+// The others in the order of field_maps.glsl, which leaves out the same.
+#define DIFFUSE_LOCATION (FACE_NORMALS == 1 ? 2 : 3)
+#define F0_LOCATION (DIFFUSE_LOCATION + ((SURFACE_LOBES & DIFFUSE_LOBE) != 0 ? 1 : 0))
+#if FACE_NORMALS == 0
 layout(location = 2) out vec4 out_geometric;
-layout(location = 3) out vec4 out_diffuse;
-layout(location = 4) out vec4 out_f0;
+#endif
+#if SURFACE_LOBES & DIFFUSE_LOBE
+layout(location = DIFFUSE_LOCATION) out vec4 out_diffuse;
+#endif
+#if SURFACE_LOBES & SPECULAR_LOBE
+layout(location = F0_LOCATION) out vec4 out_f0;
+#endif
 layout(push_constant, scalar) uniform Push { DrawPush draw; };
 
 void main() {
   vec4 color = draw.base_color;
-  if ((draw.textures & 1u) != 0u) color *= texture(base_color_map, uv);
+#if BASE_COLOR_TEXTURES || ALPHA_MASKS
+  if ((draw.textures & 1u) != 0u) {
+    vec4 t = texture(base_color_map, uv);
+    color.a *= t.a;
+#if BASE_COLOR_TEXTURES
+    color.rgb *= t.rgb;
+#endif
+  }
+#endif
+#if ALPHA_MASKS
   if (color.a < draw.alpha_cutoff) discard;
+#endif
   float metallic = draw.metallic, roughness = draw.roughness;
+#if METALLIC_ROUGHNESS_TEXTURES
   if ((draw.textures & 2u) != 0u) {
     vec4 t = texture(metallic_roughness_map, uv);
     roughness *= t.g;
     metallic *= t.b;
   }
-  // Chosen, not branched to: lavapipe (Mesa 22.3) inlined a branch on this uniform into the shader, compiled
-  // it anew at every draw, and kept each (open_frames_test.cpp).
-  vec3 towards = normalize(viewer.position - position);
-  vec3 view = mix(-viewer.forward, towards, bvec3(viewer.perspective != 0u));
+#endif
+  vec3 view = towards(viewer, position);
 
   // The face's normal on the viewer's side.
   vec3 geometric = face_normals[draw.first_triangle + uint(gl_PrimitiveID)].xyz;
   if (dot(geometric, view) < 0.0) geometric = -geometric;
 
-  vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : geometric;  // opposite normals may cancel
+#if FACE_NORMALS
+  out_normal.xyz = geometric;  // its bend towards the viewer is for who reads it
+#else
+  vec3 n = geometric;
+#if SMOOTH_NORMALS
+  // What differs by no more than the rounding of vertices and of interpolation is the face's own normal, so
+  // that where all normals are, no bit differs from the other branch. Opposite normals may cancel.
+  vec3 smooth_normal = dot(normal, normal) > 0.0 ? normalize(normal) : geometric;
+  if (dot(smooth_normal, geometric) < 0.0) smooth_normal = -smooth_normal;
+  if (distance(smooth_normal, geometric) > 2e-6) n = smooth_normal;
+#endif
+#if NORMAL_MAPS
   if ((draw.textures & 4u) != 0u) {
     vec3 axis = tangent.xyz - n * dot(n, tangent.xyz);
     if (dot(axis, axis) > 1e-12) {
@@ -47,15 +93,18 @@ void main() {
       n = normalize(m.x * x + m.y * y + m.z * n);
     }
   }
+#endif
   if (dot(n, geometric) < 0.0) n = -n;
-  // A shading normal that turns away from the viewer is bent back.
-  float nv = dot(n, view);
-  if (nv < 0.01) n = normalize(n + (0.01 - nv) * view);
-
-  vec3 f0 = draw.specular * mix(vec3(0.04), color.rgb, metallic);
-  out_position = vec4(position, 1.0);
-  out_normal = vec4(n, draw.phong_exponent > 0.0 ? -draw.phong_exponent : max(roughness * roughness, 1e-3));
+  out_normal.xyz = bent_normal(n, view);
   out_geometric = vec4(geometric, 0.0);
+#endif
+
+  out_position = vec4(position, 1.0);
+  out_normal.w = draw.phong_exponent > 0.0 ? -draw.phong_exponent : max(roughness * roughness, 1e-3);
+#if SURFACE_LOBES & DIFFUSE_LOBE
   out_diffuse = vec4(color.rgb * (1.0 - metallic) * (1.0 - 0.04 * draw.specular), 0.0);
-  out_f0 = vec4(f0, 0.0);
+#endif
+#if SURFACE_LOBES & SPECULAR_LOBE
+  out_f0 = vec4(draw.specular * mix(vec3(0.04), color.rgb, metallic), 0.0);
+#endif
 }

@@ -5,9 +5,10 @@
 namespace vsglbench {
 
 LightGenerator::LightGenerator(Stage& stage, const MethodInfo& info, const Json& parameters,
-                               const Shading& shading)
+                               const Shading& shading, const EffectSet& effects, Half half)
     : name_(info.name),
-      context_(stage.kernels, stage.scratch, info.folder, shading_defines(shading)),
+      context_(stage.kernels, stage.scratch, info.folder,
+               merged(shading_defines(shading), permutation(effects, half, half)), lobes_of(effects, half)),
       method_(make_method(info, context_, parameters)) {}
 
 HalfLights::HalfLights(Stage& stage, const Halves& halves, const LightGenerator& generator, Half half,

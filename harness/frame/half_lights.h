@@ -6,6 +6,7 @@
 
 #include "frame/halves.h"
 #include "frame/light_records.h"
+#include "frame/permutation.h"
 #include "frame/shading.h"
 
 namespace vsglbench {
@@ -13,7 +14,9 @@ namespace vsglbench {
 // A method with fixed parameters. Throws Error(plugin) for what no method may be.
 class LightGenerator {
  public:
-  LightGenerator(Stage& stage, const MethodInfo& info, const Json& parameters, const Shading& shading);
+  // `half`: on which it makes lights; a method has one object for each.
+  LightGenerator(Stage& stage, const MethodInfo& info, const Json& parameters, const Shading& shading,
+                 const EffectSet& effects, Half half);
   LightGenerator(const LightGenerator&) = delete;
   LightGenerator& operator=(const LightGenerator&) = delete;
   const std::string& name() const { return name_; }
@@ -38,9 +41,10 @@ class HalfLights {
   Half half() const { return half_; }
   uint32_t count() const { return count_; }
   LightKind kind() const { return generator_.method().kind(); }
-  size_t bytes() const { return count_ * light_stride(kind()); }
+  unsigned lobes() const { return generator_.context().lobes(); }
+  size_t bytes() const { return count_ * light_stride(kind(), lobes()); }
   const Buffer& buffer() const;
-  LightRecords read() const { return read_lights(kind(), buffer(), count_); }
+  LightRecords read() const { return read_lights(kind(), buffer(), count_, lobes()); }
 
  private:
   Stage& stage_;
@@ -50,7 +54,8 @@ class HalfLights {
   uint32_t count_;
 };
 
-// Defines of the kernels that evaluate lights of this kind: `shading` is not read by all.
+// Defines of the kernels that evaluate lights of this kind, but for permutation(): `shading` is not read by
+// all.
 ShaderDefines light_defines(LightKind kind, const Shading& shading);
 
 }  // namespace vsglbench

@@ -9,7 +9,7 @@ namespace vsglbench {
 
 class Halves {
  public:
-  Halves(Stage& stage, uint32_t width, uint32_t height, uint32_t rsm);
+  Halves(Stage& stage, uint32_t width, uint32_t height, uint32_t rsm, const EffectSet& effects);
   // Rasterises both.
   void draw(Recorder& recorder) const;
 
@@ -28,6 +28,7 @@ class Halves {
   };
   const Seen& of(Half half) const { return seen_[static_cast<size_t>(half)]; }
   Stage& stage_;
+  EffectSet effects_;
   std::array<Seen, 2> seen_;
 };
 

@@ -22,18 +22,22 @@ Importance parse_importance(const std::string& name) {
   throw fail(ErrorKind::config, "no importance '{}'{}", name, suggestion(name, names));
 }
 
-ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const LightGenerator& own,
-                               const FrameParameters& p)
-    : stage_(stage), halves_(halves), shading_(p.shading) {
+ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const MethodInfo& own,
+                               const Json& method_parameters, const FrameParameters& p)
+    : stage_(stage), halves_(halves), shading_(p.shading), effects_(p.effects) {
   if (p.importance == Importance::flux) return;
-  if (p.importance != Importance::own) {
+  const auto make = [&](const MethodInfo& info, const Json& parameters) {
+    generator_ = std::make_unique<LightGenerator>(stage, info, parameters, shading_, effects_, Half::gbuffer);
+  };
+  if (p.importance == Importance::own) {
+    make(own, method_parameters);
+  } else {
     const LightKind kind = p.importance == Importance::vsgl ? LightKind::vsgl : LightKind::vpl;
     const MethodInfo& info = load_method(find_importance_maker(kind).name, stage.device.info());
-    other_ =
-        std::make_unique<LightGenerator>(stage, info, resolve_parameters(info, Json::object()), shading_);
+    make(info, resolve_parameters(info, Json::object()));
   }
   const auto wanted = std::clamp<uint64_t>(p.importance_lights, 1, halves.texels(Half::gbuffer));
-  lights_.emplace(stage, halves, other_ ? *other_ : own, Half::gbuffer, static_cast<uint32_t>(wanted));
+  lights_.emplace(stage, halves, *generator_, Half::gbuffer, static_cast<uint32_t>(wanted));
 }
 
 size_t ImportancePass::pdf_bytes(Half half) const {
@@ -81,15 +85,16 @@ KeptPdfs ImportancePass::keep() const {
 
 void ImportancePass::draw_reflectance(Recorder& r, Half half) const {
   const Field f = halves_.field(half, nullptr);
-  r.dispatch(stage_.kernels.get(frame_kernel("pdf_reflectance.comp")), {f.maps, pdf(half)}, f.emitter,
-             groups_for(f.emitter.width, 8), groups_for(f.emitter.height, 8));
+  r.dispatch(stage_.kernels.get(frame_kernel("pdf_reflectance.comp"), permutation(effects_, half, half)),
+             {f.maps, pdf(half)}, f.emitter, groups_for(f.emitter.width, 8), groups_for(f.emitter.height, 8));
   build_mips(r, half);
 }
 
 void ImportancePass::gather(Recorder& r) const {
   const Field f = halves_.field(Half::rsm, nullptr);
-  const Kernel& kernel =
-      stage_.kernels.get(frame_kernel("importance.comp"), light_defines(lights_->kind(), shading_));
+  const Kernel& kernel = stage_.kernels.get(
+      frame_kernel("importance.comp"),
+      merged(light_defines(lights_->kind(), shading_), permutation(effects_, Half::rsm, Half::gbuffer)));
   for (const LightRange& range : light_ranges(lights_->count(), most_lights_of_a_dispatch)) {
     const struct {
       gpu::Emitter emitter;

@@ -21,7 +21,7 @@ struct KeptPdfs {
 class ImportancePass {
  public:
   // `own`: the method under test, which FrameParameters::importance may replace.
-  ImportancePass(Stage& stage, const Halves& halves, const LightGenerator& own,
+  ImportancePass(Stage& stage, const Halves& halves, const MethodInfo& own, const Json& method_parameters,
                  const FrameParameters& parameters);
 
   // Both PDFs: passes importance.gbuffer, generate.gbuffer.* and importance.rsm. Returns the dispatches of
@@ -47,7 +47,8 @@ class ImportancePass {
   Stage& stage_;
   const Halves& halves_;
   Shading shading_;
-  std::unique_ptr<LightGenerator> other_;  // where the method under test does not make it
+  EffectSet effects_;
+  std::unique_ptr<LightGenerator> generator_;  // null where nobody's lights make the PDF
   std::optional<HalfLights> lights_;
   bool drawn_from_own_ = false;
 };

@@ -6,8 +6,20 @@
 
 namespace vsglbench {
 
-LightRecords read_lights(LightKind kind, const Buffer& buffer, size_t count) {
-  LightRecords lights{kind, buffer.download<std::byte>(count * light_stride(kind))};
+LightRecords read_lights(LightKind kind, const Buffer& buffer, size_t count, unsigned lobes) {
+  const auto read = buffer.download<std::byte>(count * light_stride(kind, lobes));
+  const std::vector<size_t> words = record_words(kind, lobes);
+  const size_t whole = light_stride(kind);
+  if (4 * words.size() == whole) return {kind, read};
+  LightRecords lights{kind, std::vector<std::byte>(count * whole)};
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t w = 0; w < words.size(); ++w)
+      std::memcpy(&lights.bytes[i * whole + 4 * words[w]], &read[4 * (i * words.size() + w)], 4);
+    // A BRDF without a specular lobe still has a width, as the kernels' vpl_surface() gives it.
+    const float rough = 1;
+    if (kind != LightKind::vsgl && !(lobes & SPECULAR_LOBE))
+      std::memcpy(&lights.bytes[i * whole + offsetof(gpu::Vpl, ndf)], &rough, sizeof rough);
+  }
   return lights;
 }
 

@@ -12,7 +12,7 @@
 
 namespace vsglbench {
 
-// As they came from the device: `count` records of light_stride(kind) bytes.
+// As the host has them: `count` records of light_stride(kind) bytes, with both lobes.
 struct LightRecords {
   LightKind kind = LightKind::vsgl;
   std::vector<std::byte> bytes;
@@ -44,7 +44,10 @@ struct LightRecords {
   bool operator==(const LightRecords&) const = default;
 };
 
-LightRecords read_lights(LightKind kind, const Buffer& buffer, size_t count);
+// `lobes`: those that the records in the buffer have (shaders/types.h); the fields of others are 0,
+// but for a width of 1.
+LightRecords read_lights(LightKind kind, const Buffer& buffer, size_t count,
+                         unsigned lobes = DIFFUSE_LOBE | SPECULAR_LOBE);
 template <class Record>
 LightRecords records_of(LightKind kind, const std::vector<Record>& lights) {
   const auto bytes = std::as_bytes(std::span(lights));

@@ -36,16 +36,22 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= count) return;
   Vsgl light = lights[i];
-  vec3 diffuse = light.diffuse * sg_integral(light.diffuse_sharpness);
+  vec3 reflected = vec3(0.0);
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  reflected += light.diffuse * sg_integral(light.diffuse_sharpness);
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
   vec3 specular = light.specular * sg_integral(light.specular_sharpness);
+  reflected += specular;
+#endif
   Texel t;
   bool lit = light.power > 0.0;
   bool surface = load_texel(emitter, lit ? texel_of(light.mean) : ivec2(0), t) && lit;
   Vpl v = make_vpl(t, 0.0);
-  v.flux = flux_behind(diffuse + specular, t.surface.diffuse + specular_reflectance(t.surface));
+  v.flux = flux_behind(reflected, t.surface.diffuse + specular_reflectance(t.surface));
   v.power = surface ? luminance(v.flux) : 0.0;
   texels[i] = v;
-#if LOBE_FILTER == 1
+#if LOBE_FILTER == 1 && (LIGHT_LOBES & SPECULAR_LOBE) != 0
   if (!surface) return;
   Moments m = leaf_moments(t);
   light.specular_axis = safe_normalize(m.specular.direction, light.specular_axis);

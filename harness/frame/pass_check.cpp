@@ -122,6 +122,7 @@ void PassCheck::after(const PassRecord& pass) {
 
 void PassCheck::check_targets(const PassId& pass, const DeferredTargets& targets) {
   for (size_t map = 0; map < targets.maps.size(); ++map) {
+    if (!targets.maps[map]) continue;
     std::vector<uint32_t> words(size_t(targets.width) * targets.height * 4);
     targets.maps[map].download(words.data(), words.size() * sizeof(uint32_t));
     Finding finding(true);

@@ -15,7 +15,7 @@ namespace vsglbench {
 
 struct BadOutput {
   PassId pass;
-  std::string buffer;     // "moments1.rsm"; "rsm normal" of a raster pass
+  std::string buffer;     // "moments.specular_powers.rsm"; "rsm normal" of a raster pass
   std::string field;      // of the element: "power", "mean.x"; empty where the element is one number
   bool is_nan = true;     // else Inf
   uint64_t element = 0;   // index of the first that is bad
@@ -24,8 +24,8 @@ struct BadOutput {
   std::optional<uint32_t> level;    // where it has one for each texel of a mip pyramid
   uint64_t nan = 0, inf = 0;        // elements of the buffer with a NaN, or else an Inf
 
-  // "pass generate.rsm.mipmap is the first to hold a NaN: buffer moments1.rsm, element 1234 (x), texel (12,
-  // 3) of level 2"
+  // "pass generate.rsm.mipmap is the first to hold a NaN: buffer moments.specular_powers.rsm, element 1234
+  // (x), texel (12, 3) of level 2"
   std::string message() const;
 };
 

@@ -14,6 +14,7 @@ bool all_finite(const float* begin, size_t count) {
 
 bool all_finite(const DeferredTargets& targets) {
   return std::ranges::all_of(targets.maps, [](const DeviceImage& map) {
+    if (!map) return true;
     const auto texels = download_map(map);
     return all_finite(&texels.front().x, 4 * texels.size());
   });
@@ -120,7 +121,11 @@ double FrameReadback::light_power() const {
 
 double FrameReadback::texel_power() const {
   std::array<std::vector<glm::vec4>, 5> maps;
-  std::ranges::transform(parts_.halves.targets(Half::rsm).maps, maps.begin(), download_map);
+  const DeferredTargets& targets = parts_.halves.targets(Half::rsm);
+  for (size_t k = 0; k < maps.size(); ++k) {
+    maps[k] = targets.maps[k] ? download_map(targets.maps[k])
+                              : std::vector<glm::vec4>(parts_.halves.texels(Half::rsm));
+  }
   return reflected_power(parts_.halves.emitter(Half::rsm), maps);
 }
 

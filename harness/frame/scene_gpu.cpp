@@ -8,16 +8,24 @@
 
 namespace vsglbench {
 
-DeferredTargets::DeferredTargets(Device& device, const std::string& name, uint32_t w, uint32_t h)
+DeferredTargets::DeferredTargets(Device& device, const std::string& name, uint32_t w, uint32_t h,
+                                 const Channels& channels)
     : width(w), height(h) {
   static constexpr const char* names[] = {"position", "normal", "geometric normal", "diffuse", "f0"};
+  const bool there[] = {true, true, channels.geometric_normal, channels.diffuse, channels.f0};
   for (size_t i = 0; i < maps.size(); ++i) {
+    if (!there[i]) continue;
     maps[i] = DeviceImage(
         device, name + " " + names[i], VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   }
   depth = DeviceImage(device, name + " depth", VK_FORMAT_D32_SFLOAT, w, h,
                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+}
+
+FieldMaps DeferredTargets::field_maps() const {
+  const auto map = [&](size_t i) { return maps[i] ? &maps[i] : nullptr; };
+  return {map(0), map(1), map(2), map(3), map(4)};
 }
 
 gpu::Emitter make_emitter(const View& view, uint32_t width, uint32_t height, const glm::vec3& power,
@@ -35,18 +43,24 @@ gpu::Emitter make_emitter(const View& view, uint32_t width, uint32_t height, con
           .importance = importance ? 1u : 0u};
 }
 
-SceneGpu::SceneGpu(Device& device, const Scene& scene) : triangles_(scene.triangles.size()) {
+SceneGpu::SceneGpu(Device& device, const Scene& scene) : device_(device), triangles_(scene.triangles.size()) {
   upload_geometry(device, scene);
   upload_textures(device, scene);
   make_draws(scene);
+}
+
+const RasterPipeline& SceneGpu::pipeline(const ShaderDefines& defines, size_t targets) {
+  const auto found = pipelines_.find(defines);
+  if (found != pipelines_.end()) return found->second;
   const auto folder = data_root() / "harness" / "frame";
-  const std::vector<VkFormat> targets(5, VK_FORMAT_R32G32B32A32_SFLOAT);
-  pipeline_ = RasterPipeline(device, folder / "gbuffer.vert", folder / "gbuffer.frag", {},
-                             KernelLibrary::include_dirs(), targets, sizeof(gpu::Vertex),
-                             {{VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::Vertex, position)},
-                              {VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::Vertex, normal)},
-                              {VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::Vertex, tangent)},
-                              {VK_FORMAT_R32G32_SFLOAT, offsetof(gpu::Vertex, uv)}});
+  const std::vector<VkFormat> formats(targets, VK_FORMAT_R32G32B32A32_SFLOAT);
+  RasterPipeline made(device_, folder / "gbuffer.vert", folder / "gbuffer.frag", defines,
+                      KernelLibrary::include_dirs(), formats, sizeof(gpu::Vertex),
+                      {{VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::Vertex, position)},
+                       {VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::Vertex, normal)},
+                       {VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::Vertex, tangent)},
+                       {VK_FORMAT_R32G32_SFLOAT, offsetof(gpu::Vertex, uv)}});
+  return pipelines_.emplace(defines, std::move(made)).first->second;
 }
 
 void SceneGpu::upload_geometry(Device& device, const Scene& scene) {
@@ -108,12 +122,14 @@ void SceneGpu::make_draws(const Scene& scene) {
 }
 
 void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
-                    const DeferredTargets& targets) const {
+                    const DeferredTargets& targets, const ShaderDefines& defines) {
   std::vector<const DeviceImage*> maps;
-  for (const DeviceImage& map : targets.maps) maps.push_back(&map);
+  for (const DeviceImage& map : targets.maps)
+    if (map) maps.push_back(&map);
+  const RasterPipeline& pipeline = this->pipeline(defines, maps.size());
   const VkCommandBuffer commands = recorder.commands();
   const glm::mat4 view_projection = view.view_projection();
-  pipeline_.render(commands, maps, targets.depth, [&] {
+  pipeline.render(commands, maps, targets.depth, [&] {
     const VkBuffer vertices = vertices_.handle();
     const VkDeviceSize zero = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
@@ -124,8 +140,8 @@ void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
       };
       gpu::DrawPush push = draw.push;
       push.view_projection = view_projection;
-      pipeline_.bind(commands, recorder.descriptors(),
-                     {texture(0), texture(1), texture(2), viewer, face_normals_}, push);
+      pipeline.bind(commands, recorder.descriptors(),
+                    {texture(0), texture(1), texture(2), viewer, face_normals_}, push);
       vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, 0, 0);
     }
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "gpu/raster.h"
@@ -13,13 +14,22 @@
 
 namespace vsglbench {
 
-// The five targets of one half, in the order of FieldMaps, and their depth.
+// Which targets there are beside position and normal.
+struct Channels {
+  bool geometric_normal = true, diffuse = true, f0 = true;
+  auto operator<=>(const Channels&) const = default;
+};
+
+// The targets of one half, in the order of FieldMaps, and their depth.
 struct DeferredTargets {
-  DeferredTargets(Device& device, const std::string& name, uint32_t width, uint32_t height);
+  DeferredTargets(Device& device, const std::string& name, uint32_t width, uint32_t height,
+                  const Channels& channels = {});
   uint32_t width, height;
-  std::array<DeviceImage, 5> maps;
+  std::array<DeviceImage, 5> maps;  // one that no channel asks for is empty
   DeviceImage depth;
-  FieldMaps field_maps() const { return {&maps[0], &maps[1], &maps[2], &maps[3], &maps[4]}; }
+  FieldMaps field_maps() const;
+  // The map whose xyz is the face's normal.
+  const DeviceImage& geometric_normals() const { return maps[2] ? maps[2] : maps[1]; }
 };
 
 // The parameters of a view as the shaders read them. `importance`: every texel emits 1/(width height)
@@ -32,7 +42,9 @@ class SceneGpu {
   // Uploads geometry and textures; throws Error(case_failed) when they don't fit.
   SceneGpu(Device& device, const Scene& scene);
   // Draws everything as seen from `view` into `targets`. Inside a pass.
-  void draw(Recorder& recorder, const View& view, const Buffer& viewer, const DeferredTargets& targets) const;
+  // `defines`: raster_permutation() of the effects that `targets` were made for.
+  void draw(Recorder& recorder, const View& view, const Buffer& viewer, const DeferredTargets& targets,
+            const ShaderDefines& defines = {});
   uint64_t triangle_count() const { return triangles_; }
 
  private:
@@ -49,7 +61,9 @@ class SceneGpu {
   std::vector<DeviceImage> textures_;
   DeviceImage white_;
   std::vector<Draw> draws_;
-  RasterPipeline pipeline_;
+  const RasterPipeline& pipeline(const ShaderDefines& defines, size_t targets);
+  Device& device_;
+  std::map<ShaderDefines, RasterPipeline> pipelines_;
   uint64_t triangles_ = 0;
 };
 

@@ -54,15 +54,17 @@ void ShadePass::trace() {
 }
 
 const Buffer& ShadePass::light_texels(Recorder& r) const {
-  const Buffer& texels =
-      stage_.memory.light_texels.get(stage_.device, "light texels", lights_.count() * sizeof(gpu::Vpl));
+  const Buffer& texels = stage_.memory.light_texels.get(
+      stage_.device, "light texels", lights_.count() * light_stride(LightKind::vpl, lights_.lobes()));
   const Field rsm = halves_.field(Half::rsm, nullptr);
   r.pass({PassStage::shade, std::nullopt, "texels"}, [&] {
     const struct {
       gpu::Emitter emitter;
       uint32_t count;
     } push{rsm.emitter, lights_.count()};
-    r.dispatch(stage_.kernels.get(frame_kernel("light_texels.comp"), shading_defines(parameters_.shading)),
+    r.dispatch(stage_.kernels.get(frame_kernel("light_texels.comp"),
+                                  merged(shading_defines(parameters_.shading),
+                                         permutation(parameters_.effects, Half::rsm, Half::rsm))),
                {rsm.maps, lights_.buffer(), texels}, push, groups_for(lights_.count(), 64));
   });
   return texels;
@@ -70,7 +72,8 @@ const Buffer& ShadePass::light_texels(Recorder& r) const {
 
 void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
   const Field camera = halves_.field(Half::gbuffer, nullptr);
-  ShaderDefines defines = shade_defines(lights_.kind(), parameters_.shading);
+  ShaderDefines defines = merged(shade_defines(lights_.kind(), parameters_.shading),
+                                 permutation(parameters_.effects, Half::gbuffer, Half::rsm));
   // All kinds of shadow maps are read alike.
   defines["VISIBILITY"] = std::to_string(static_cast<int>(std::min(parameters_.visibility, Visibility::ism)));
   if (reduces_bias()) defines["BIAS_REDUCTION"] = "1";
@@ -107,7 +110,7 @@ ShadePass::Sight ShadePass::see(Recorder& r, ShadePush* push, Bindings* bound) c
   if (has_shadow_maps(parameters_.visibility)) {
     const auto maps = stage_.shadow_maps(parameters_.visibility, parameters_.ism)
                           .build(r, lights_.buffer(), lights_.kind(), lights_.count(),
-                                 halves_.targets(Half::gbuffer), clears_sigma());
+                                 halves_.targets(Half::gbuffer), clears_sigma(), lights_.lobes());
     push->map_tolerance = maps.tolerance;
     bound->add(*maps.depth);
     bound->add(*maps.frames);

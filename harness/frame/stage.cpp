@@ -9,9 +9,13 @@ std::filesystem::path frame_kernel(const char* file) { return data_root() / "har
 Stage::Stage(Device& d, KernelLibrary& k, const Scene& s)
     : device(d), kernels(k), scene(s), scratch(d), geometry(d, s) {}
 
-DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height) {
-  auto& slot = targets_[{half, width, height}];
-  if (!slot) slot = std::make_unique<DeferredTargets>(device, half_name(half), width, height);
+DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height, const EffectSet& effects) {
+  const unsigned lobes = lobes_of(effects, half);
+  const Channels channels{.geometric_normal = !has_face_normals(effects),
+                          .diffuse = (lobes & DIFFUSE_LOBE) != 0,
+                          .f0 = (lobes & SPECULAR_LOBE) != 0};
+  auto& slot = targets_[{half, width, height, channels}];
+  if (!slot) slot = std::make_unique<DeferredTargets>(device, half_name(half), width, height, channels);
   return *slot;
 }
 

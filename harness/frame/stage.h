@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "frame/permutation.h"
 #include "frame/scene_gpu.h"
 #include "frame/visibility.h"
 #include "method/context.h"
@@ -33,11 +34,13 @@ class Stage {
   ScratchPool scratch;  // of methods
   FrameMemory memory;
   SceneGpu geometry;
-  DeferredTargets& targets(Half half, uint32_t width, uint32_t height);
+  // With the channels that the effects ask for.
+  DeferredTargets& targets(Half half, uint32_t width, uint32_t height,
+                           const EffectSet& effects = EffectSet::all());
   ImperfectShadowMaps& shadow_maps(Visibility technique, const IsmParameters& parameters);
 
  private:
-  std::map<std::tuple<Half, uint32_t, uint32_t>, std::unique_ptr<DeferredTargets>> targets_;
+  std::map<std::tuple<Half, uint32_t, uint32_t, Channels>, std::unique_ptr<DeferredTargets>> targets_;
   std::map<std::tuple<Visibility, uint32_t, uint32_t>, std::unique_ptr<ImperfectShadowMaps>> shadow_maps_;
 };
 

@@ -112,11 +112,12 @@ PassId ImperfectShadowMaps::pass(const char* step) const {
 
 ImperfectShadowMaps::Maps ImperfectShadowMaps::build(Recorder& recorder, const Buffer& lights, LightKind kind,
                                                      uint32_t count, const DeferredTargets& seen,
-                                                     bool clears_sigma) {
+                                                     bool clears_sigma, unsigned lobes) {
   Buffer& frames = memory_.frames.get(kernels_.device(), "ism frames", count * kFrameBytes);
   Buffer& maps = level(parameters_.size, count);
   ShaderDefines defines = info_of(kind).record_defines;
   defines["LIGHT_CLEARANCE"] = clears_sigma ? "1" : "0";
+  if (lobes != (DIFFUSE_LOBE | SPECULAR_LOBE)) defines["LIGHT_LOBES"] = std::to_string(lobes);
   const Kernel& make_frames = kernels_.get(shader("ism_frames.comp"), defines);
   const struct {
     uint32_t count;

@@ -71,9 +71,10 @@ class ImperfectShadowMaps {
     float tolerance;  // metres, by which a receiver may be farther away than the map's depth
   };
   // `seen`: what the camera sees, for techniques that adapt to it. `clears_sigma`: what is nearer to a VSGL's
-  // mean than its standard deviation is no occluder.
+  // mean than its standard deviation is no occluder. `lobes`: that the lights have (shaders/types.h).
   Maps build(Recorder& recorder, const Buffer& lights, LightKind kind, uint32_t count,
-             const DeferredTargets& seen, bool clears_sigma = false);
+             const DeferredTargets& seen, bool clears_sigma = false,
+             unsigned lobes = DIFFUSE_LOBE | SPECULAR_LOBE);
   // The bytes of all buffers for `count` lights, beside the scene as the rasteriser has it: what points are
   // made from (for aism and tism with a copy of positions and triangles), maps with their pyramids, and
   // frames.

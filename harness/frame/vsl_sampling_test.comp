@@ -25,10 +25,10 @@ void main() {
   if (i >= count) return;
   Surface s = Surface(vec3(0.0), normal, normal, view, diffuse, f0, ndf);
 #if MODE == 0
-  values[i] = vec4(given[i].xyz, brdf_pdf(s, given[i].xyz));
+  values[i] = vec4(given[i].xyz, brdf_pdf(s, given[i].xyz, SURFACE_LOBES));
 #elif MODE == 1
-  vec3 l = sample_brdf(s, given[i].xy, given[i].z);
-  values[i] = vec4(l, brdf_pdf(s, l));
+  vec3 l = sample_brdf(s, given[i].xy, given[i].z, SURFACE_LOBES);
+  values[i] = vec4(l, brdf_pdf(s, l, SURFACE_LOBES));
 #else
   Cone c = Cone(normal, cone);
   vec3 l = sample_cone(c, given[i].xy);

@@ -75,6 +75,7 @@ class DeviceImage {
     return *this;
   }
 
+  explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
   VkImage handle() const { return image_; }
   VkImageView view() const { return view_; }
   VkFormat format() const { return format_; }

@@ -93,7 +93,7 @@ class MipmapBlock : public Block {
     const SubmissionTimes times = on_.recorder.submit_and_wait();
     // Mean diffuse power of the whole half, from the last level.
     const uint32_t w = half_.emitter.width, h = half_.emitter.height;
-    const auto power = moments.buffers[0]->download<glm::vec4>(pyramid_texels(w, h));
+    const auto power = moments.buffers[1]->download<glm::vec4>(pyramid_texels(w, h));
     top_ = glm::dvec3(power.back());
     for (const PassTime& pass : times.passes) {
       if (pass.pass.step == "mipmap") return pass.ms;

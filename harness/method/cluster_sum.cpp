@@ -9,15 +9,14 @@
 namespace vsglbench {
 namespace {
 
-constexpr uint32_t kBlock = 64;           // as BLOCK in shaders/cluster_sum.glsl
-constexpr size_t kMomentsBytes = 18 * 4;  // Moments in scalar layout (shaders/moments.glsl)
-constexpr uint32_t kGroup = 32;           // as GROUP there
+constexpr uint32_t kBlock = 64;  // as BLOCK in shaders/cluster_sum.glsl
+constexpr uint32_t kGroup = 32;  // as GROUP there
 // Texels of one cluster that a dispatch of the linear sum goes through on lavapipe: each texel is a round,
 // each 64 another, each 4096 a third.
 constexpr uint32_t kMostTexels = 15 * kBlock * kBlock;
 static_assert(kMostTexels + kMostTexels / kBlock + kMostTexels / (kBlock * kBlock) < limits::loop_rounds);
 
-void check(const ClusterSum::SortedTexels& sorted, const LightTarget& target) {
+void check(const ClusterSum::SortedTexels& sorted, const LightTarget& target, unsigned lobes) {
   const auto see = [](const Buffer* buffer, size_t bytes, const char* name) {
     if (!buffer) throw std::logic_error(fmt::format("cluster sum: no {}", name));
     if (buffer->size() < bytes) {
@@ -27,7 +26,7 @@ void check(const ClusterSum::SortedTexels& sorted, const LightTarget& target) {
   };
   see(sorted.ids, size_t(sorted.count) * 4, "ids");
   see(sorted.texels, size_t(sorted.count) * 4, "texels");
-  see(target.buffer, size_t(target.count) * sizeof(gpu::Vsgl), "lights");
+  see(target.buffer, target.count * light_stride(LightKind::vsgl, lobes), "lights");
 }
 
 // Pieces of the next level at most, whatever the clusters' sizes: each cluster has one that isn't full.
@@ -57,7 +56,7 @@ ClusterSum::ClusterSum(MethodContext& context, ClusterSumVariant variant)
 
 void ClusterSum::record(Recorder& recorder, const Field& field, const SortedTexels& sorted,
                         const LightTarget& target) {
-  check(sorted, target);
+  check(sorted, target, context_.lobes());
   if (target.count == 0) return;
   if (variant_ == ClusterSumVariant::per_cluster) {
     record_linear(recorder, field, sorted, target);
@@ -76,7 +75,8 @@ void ClusterSum::record_linear(Recorder& r, const Field& field, const SortedTexe
   const Buffer& starts = record_starts(r, field, sorted, target.count, 1);
   const bool cpu = context_.device().is_cpu();
   const uint32_t most = cpu ? kMostTexels : groups_for(sorted.count, kBlock * kBlock) * kBlock * kBlock;
-  const Buffer& unfinished = scratch(field.half, "unfinished", target.count * kMomentsBytes);
+  const Buffer& unfinished =
+      scratch(field.half, "unfinished", target.count * moments_bytes(context_.lobes()));
   uint32_t round = 0;
   do {
     const struct {
@@ -113,8 +113,9 @@ void ClusterSum::record_segmented(Recorder& r, const Field& field, const SortedT
   }
   // 3. Texels of each piece.
   uint32_t bound = piece_bound(sorted.count, clusters);
-  const Buffer* from = &scratch(field.half, "partials0", bound * kMomentsBytes);
-  const Buffer* to = &scratch(field.half, "partials1", piece_bound(bound, clusters) * kMomentsBytes);
+  const size_t bytes = moments_bytes(context_.lobes());
+  const Buffer* from = &scratch(field.half, "partials0", bound * bytes);
+  const Buffer* to = &scratch(field.half, "partials1", piece_bound(bound, clusters) * bytes);
   const struct {
     gpu::Emitter emitter;
     uint32_t clusters, bound;

@@ -51,7 +51,7 @@ const Kernel& MethodContext::shared_kernel(const std::string& file, const Shader
 
 const Kernel& MethodContext::use(const std::filesystem::path& path, const ShaderDefines& defines) {
   used_files_.insert(path);
-  ShaderDefines all = shading_;
+  ShaderDefines all = defines_;
   all.insert(defines.begin(), defines.end());
   return **used_kernels_.insert(&kernels_.get(path, all)).first;
 }

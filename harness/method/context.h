@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gpu/kernel.h"
+#include "shaders/types.h"
 
 namespace vsglbench {
 
@@ -55,11 +56,18 @@ class ScratchPool {
 
 class MethodContext {
  public:
-  // `shading`: defines of every kernel, as lights are made to be shaded (frame/shading.h).
+  // `defines`: of every kernel, as lights are made to be shaded (frame/shading.h) and as the effects that the
+  // scene calls for want them (frame/permutation.h). `lobes`: of the lights, as in shaders/types.h.
   MethodContext(KernelLibrary& kernels, ScratchPool& scratch, std::filesystem::path folder,
-                ShaderDefines shading = {})
-      : kernels_(kernels), scratch_(scratch), folder_(std::move(folder)), shading_(std::move(shading)) {}
+                ShaderDefines defines = {}, unsigned lobes = DIFFUSE_LOBE | SPECULAR_LOBE)
+      : kernels_(kernels),
+        scratch_(scratch),
+        folder_(std::move(folder)),
+        defines_(std::move(defines)),
+        lobes_(lobes) {}
   Device& device() { return kernels_.device(); }
+  // Which lobes the lights have that this context's kernels make.
+  unsigned lobes() const { return lobes_; }
   // A kernel from the method's own folder.
   const Kernel& kernel(const std::string& file, const ShaderDefines& defines = {});
   // A kernel that several methods share, from harness/method/shaders.
@@ -67,7 +75,7 @@ class MethodContext {
   Buffer& scratch(const std::string& name, size_t bytes);
 
   // What the method has asked for so far.
-  size_t kernel_count() const { return used_kernels_.size(); }
+  const std::set<const Kernel*>& kernels() const { return used_kernels_; }
   const std::set<std::filesystem::path>& kernel_files() const { return used_files_; }
   size_t scratch_bytes() const;
   struct Scratch {
@@ -80,7 +88,8 @@ class MethodContext {
   KernelLibrary& kernels_;
   ScratchPool& scratch_;
   std::filesystem::path folder_;
-  ShaderDefines shading_;
+  ShaderDefines defines_;
+  unsigned lobes_;
   const Kernel& use(const std::filesystem::path& path, const ShaderDefines& defines);
   std::set<const Kernel*> used_kernels_;
   std::set<std::filesystem::path> used_files_;

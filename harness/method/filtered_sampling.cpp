@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace vsglbench {
 
@@ -28,9 +29,17 @@ MomentPyramid::MomentPyramid(MethodContext& context)
 MomentBuffers MomentPyramid::build(Steps& steps, const Field& field) {
   const uint32_t w = field.emitter.width, h = field.emitter.height;
   MomentBuffers moments;
-  for (size_t k = 0; k < moments.buffers.size(); ++k) {
-    moments.buffers[k] =
-        &context_.scratch(fmt::format("moments{}.{}", k, half_name(field.half)), pyramid_texels(w, h) * 16);
+  const auto add = [&](const char* what) {
+    moments.buffers.push_back(&context_.scratch(fmt::format("moments.{}.{}", what, half_name(field.half)),
+                                                pyramid_texels(w, h) * 16));
+  };
+  add("places");
+  for (const auto& [lobe, power, direction] :
+       {std::tuple(DIFFUSE_LOBE, "diffuse_powers", "diffuse_directions"),
+        std::tuple(SPECULAR_LOBE, "specular_powers", "specular_directions")}) {
+    if (!(context_.lobes() & lobe)) continue;
+    add(power);
+    add(direction);
   }
   Recorder& r = steps.recorder();
   steps.pass("resolve", [&] {

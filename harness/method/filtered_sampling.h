@@ -10,11 +10,14 @@
 
 namespace vsglbench {
 
-// Five vec4 buffers, a pyramid each, as shaders/moments_buffers.glsl numbers them and says what they hold.
+// Vec4 buffers, a pyramid each, one and two for each lobe of the lights, as shaders/moments_buffers.glsl
+// numbers them and says what they hold.
 struct MomentBuffers {
-  std::array<const Buffer*, 5> buffers{};
-  std::array<Binding, 5> bindings() const {
-    return {*buffers[0], *buffers[1], *buffers[2], *buffers[3], *buffers[4]};
+  std::vector<const Buffer*> buffers;
+  std::vector<Binding> bindings() const {
+    std::vector<Binding> out;
+    for (const Buffer* buffer : buffers) out.emplace_back(*buffer);
+    return out;
   }
 };
 

@@ -18,9 +18,11 @@ struct LightKindInfo {
   LightKind kind;
   const char* name;    // in reports and configs
   const char* record;  // the struct, in GLSL
-  size_t bytes;        // of a record
+  size_t bytes;        // of a record with both lobes, as the host has it
   // 32-bit words of a record that nobody reads and a kernel need not write; all others are floats.
   std::vector<size_t> unused;
+  // Those of each lobe, which a kernel compiled without it does not have.
+  std::vector<size_t> diffuse_words, specular_words;
   // `power` is the luminance of the incident flux, whatever the surface reflects; else of the reflected
   // power.
   bool power_is_incident;
@@ -36,7 +38,12 @@ std::vector<LightKind> light_kinds();
 bool is_light_kind(LightKind kind);
 const LightKindInfo& info_of(LightKind kind);
 
-inline size_t light_stride(LightKind kind) { return info_of(kind).bytes; }
+// The words of the host's record that a kernel's record has, in order; `lobes` as in shaders/types.h.
+std::vector<size_t> record_words(LightKind kind, unsigned lobes);
+// Bytes of a kernel's record.
+size_t light_stride(LightKind kind, unsigned lobes = DIFFUSE_LOBE | SPECULAR_LOBE);
+// Bytes of `Moments` (shaders/moments.glsl) in scalar layout.
+size_t moments_bytes(unsigned lobes);
 
 // act(record), with a record of the type that lights of this kind have.
 template <class Act>

@@ -20,15 +20,20 @@
 
 namespace vsglbench {
 
-// The deferred targets of one half, RGBA32F.
+// The deferred targets of one half, RGBA32F. Null: no effect that the scene calls for asks for it.
 struct FieldMaps {
   const DeviceImage* position = nullptr;  // w = 1 where there is a surface
-  const DeviceImage* normal = nullptr;    // of shading; w: ndf
+  const DeviceImage* normal = nullptr;    // of shading, read by shaders/shading_normal.glsl; w: ndf
   const DeviceImage* geometric_normal = nullptr;
   const DeviceImage* diffuse = nullptr;  // Rd
   const DeviceImage* f0 = nullptr;       // F0
-  // As shaders/field_maps.glsl numbers them.
-  std::array<Binding, 5> bindings() const { return {*position, *normal, *geometric_normal, *diffuse, *f0}; }
+  // Those that are there, as shaders/field_maps.glsl numbers them.
+  std::vector<Binding> bindings() const {
+    std::vector<Binding> out;
+    for (const DeviceImage* map : {position, normal, geometric_normal, diffuse, f0})
+      if (map) out.emplace_back(*map);
+    return out;
+  }
 };
 
 // What a method reads: the deferred targets of one half, who emits into it, and the PDF.

@@ -50,6 +50,18 @@ struct ClockReport {
   std::vector<std::string> throttled_by;  // reasons that held a clock down, each once
 };
 
+// The ledger of an effect (scene/effects.h): whether its scene calls for it, and why.
+struct EffectReport {
+  std::string name, reason;
+  bool needed = true;
+  std::vector<std::string> passes;  // that it concerns, by their names up to a dot
+  // What it costs a frame of the scene's first sound case where it is needed, or would cost where it is
+  // skipped; absent: not measured.
+  std::optional<Interval> ms_ci95;
+  std::optional<double> ms;
+  std::optional<int64_t> bytes;  // of images and buffers on the device
+};
+
 struct SceneReport {
   std::string name, hash;
   uint64_t triangles = 0;
@@ -59,6 +71,7 @@ struct SceneReport {
   std::string contact;                // relative path of the contact sheet; empty: none
   std::vector<std::string> notes;     // accuracy_notes() of its cases
   std::optional<ClockReport> clocks;  // absent where no library tells
+  std::vector<EffectReport> effects;  // empty in a report of old
 };
 
 struct TimeNoise {
@@ -71,13 +84,6 @@ struct TimeNoise {
 struct AaPair {
   std::string scene, case_id, twin_id;
   std::vector<TimeNoise> times;  // those in which the device's clock saw time pass
-};
-
-struct Effect {
-  std::string name, reason;
-  bool needed = false;
-  std::vector<std::string> passes;
-  double ms = 0;
 };
 
 struct PassTiming {
@@ -219,7 +225,7 @@ struct CaseError {
 enum class Measure { frame, generation };
 std::string_view name(Measure measure);
 
-// One case. status ok needs everything but error, effects and temporal, or, where only generation is
+// One case. status ok needs everything but error and temporal, or, where only generation is
 // measured, passes, frame, generate, stopping and health alone; failed and skipped need `error`, and keep
 // whatever was measured before.
 struct CaseResult {
@@ -228,7 +234,6 @@ struct CaseResult {
   Json parameters = Json::object();
   Status status = Status::ok;
   std::optional<CaseError> error;
-  std::optional<std::vector<Effect>> effects;
   std::vector<PassTiming> passes;
   std::optional<FrameTiming> frame;
   std::optional<GenerateResult> generate;

@@ -40,6 +40,16 @@ void fields(auto& a, Is<ClockReport> auto& v) {
   a("throttled_by", v.throttled_by);
 }
 
+void fields(auto& a, Is<EffectReport> auto& v) {
+  a("name", v.name);
+  a("needed", v.needed);
+  a("reason", v.reason);
+  a("passes", v.passes);
+  a("ms", v.ms);
+  a("ms_ci95", v.ms_ci95);
+  a("bytes", v.bytes);
+}
+
 void fields(auto& a, Is<SceneReport> auto& v) {
   a("name", v.name);
   a("hash", v.hash);
@@ -50,6 +60,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a.unless_empty("contact", v.contact);
   a.unless_empty("notes", v.notes);
   a("clocks", v.clocks);
+  a.unless_empty("effects", v.effects);
 }
 
 void fields(auto& a, Is<TimeNoise> auto& v) {
@@ -64,14 +75,6 @@ void fields(auto& a, Is<AaPair> auto& v) {
   a("case", v.case_id);
   a("twin", v.twin_id);
   a("times", v.times);
-}
-
-void fields(auto& a, Is<Effect> auto& v) {
-  a("name", v.name);
-  a("needed", v.needed);
-  a("reason", v.reason);
-  a("passes", v.passes);
-  a("ms", v.ms);
 }
 
 void fields(auto& a, Is<Summary> auto& v) {
@@ -237,7 +240,6 @@ void fields(auto& a, Is<CaseResult> auto& v) {
   a("parameters", v.parameters);
   a("status", v.status);
   a("error", v.error);
-  a("effects", v.effects);
   a.unless_empty("passes", v.passes);
   a("frame", v.frame);
   a("generate", v.generate);

@@ -15,7 +15,6 @@ inline CaseResult synthetic_case(const std::string& id) {
   c.scene = "cornell";
   c.method = "mfis";
   c.parameters = {{"lights", 256}, {"k", 1.0}, {"visibility", "exact"}};
-  c.effects = {{"normal-maps", "no material has one", false, {}, 0}};
   c.passes = {synthetic_pass("gbuffer", 2), synthetic_pass("generate.gbuffer.mipmap", 0.5),
               synthetic_pass("generate.rsm.mipmap", 1), synthetic_pass("generate.rsm.filter", 3),
               synthetic_pass("shade", 20)};
@@ -62,7 +61,6 @@ inline CaseResult synthetic_generation(const std::string& id, double ms) {
   c.generate->total = *generate_time(c.passes);
   c.generate->gbuffer_ms = 0.25 * ms;
   c.generate->rsm_ms = 0.75 * ms;
-  c.effects.reset();
   c.accuracy.reset();
   c.temporal.reset();
   c.seeds.clear();
@@ -97,6 +95,13 @@ inline Report synthetic_report() {
   r.wall = {60, 40, 5, 6, 4, 1.125};
   r.scenes = {
       {"cornell", "ffee", 36, {"one thing was ignored"}, {1, 2, 3}, 0.5, "cornell/contact.png", {"a note"}}};
+  r.scenes[0].effects = {{"normal_maps",
+                          "no lit or seen surface has one",
+                          false,
+                          {"gbuffer", "rsm"},
+                          Interval{0.1, 0.3},
+                          0.2,
+                          4096}};
   r.scenes[0].clocks = ClockReport{3, 1800, 1980, 3201, 3201, 62, 512.5, {"P0"}, {}};
   r.aa = {
       {"cornell",

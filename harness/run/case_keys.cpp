@@ -83,6 +83,20 @@ CaseKey choice(const Row& row, Enum FrameParameters::*field, Enum (*parse)(const
   return key;
 }
 
+CaseKey effects(const Row& row, EffectSet FrameParameters::*field) {
+  CaseKey key = key_of(row);
+  key.default_value = "";
+  const std::string one = fmt::format("({})", fmt::join(effect_names(), "|"));
+  key.schema = {{"type", "string"}, {"pattern", fmt::format("^(all|{0}(,{0})*)?$", one)}};
+  key.values = "all, or names parted by commas (vsglbench list effects)";
+  key.read = [=](const Json& value, FrameParameters* frame) {
+    if (!value.is_string()) throw fail(ErrorKind::config, "{} must be a string", value.dump());
+    frame->*field = parse_effects(value.get<std::string>());
+  };
+  key.write = [=](const FrameParameters& frame) { return Json(to_text(frame.*field)); };
+  return key;
+}
+
 // Nothing for text that is no number.
 std::optional<double> number_in(const std::string& text) {
   double value = 0;
@@ -146,6 +160,13 @@ std::vector<CaseKey> table() {
              &P::bias_reduction, kMaxFactor),
   };
   for (const ShadingAxis& axis : shading_axes()) keys.push_back(shading(axis));
+  keys.push_back(effects({"force_effects", kEveryCase, kIfDifferent,
+                          "effects that are simulated though the scene does not call for them"},
+                         &P::force_effects));
+  keys.push_back(effects({"skip_effects", kEveryCase, kIfDifferent,
+                          "effects that are left out though the scene calls for them: what do they cost and "
+                          "bring?"},
+                         &P::skip_effects));
   return keys;
 }
 

@@ -132,7 +132,7 @@ CodeSize code_size(Device& device, const std::string& name) {
   size.gbuffer_dispatches = count_dispatches(device, *method, Half::gbuffer, 1920, 1088, 2048);
   scratch.clear();
   size.rsm_dispatches = count_dispatches(device, *method, Half::rsm, 512, 512, 1024);
-  size.kernels = context.kernel_count();
+  size.kernels = context.kernels().size();
 
   // Host code and kernels of its own, and what they include: of the rooms method and shaders, but for the
   // contract.

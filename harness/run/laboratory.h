@@ -19,11 +19,9 @@ class Laboratory {
  public:
   static constexpr uint32_t kWidth = 96, kHeight = 54;
 
-  explicit Laboratory(const std::string& name)
-      : scene(load_scene(name, {data_root() / "scenes", {}})),
-        tracer(scene),
-        kernels(device()),
-        stage(device(), kernels, scene) {}
+  explicit Laboratory(const std::string& name) : Laboratory(load_scene(name, {data_root() / "scenes", {}})) {}
+  explicit Laboratory(Scene made)
+      : scene(std::move(made)), tracer(scene), kernels(device()), stage(device(), kernels, scene) {}
 
   static Device& device() {
     static Device d;
@@ -83,7 +81,7 @@ class Laboratory {
  private:
   std::vector<uint32_t> bits(Frame& frame, const std::vector<LightPoint>& points) {
     const auto position = download_map(frame.gbuffer().maps[0]),
-               normal = download_map(frame.gbuffer().maps[2]);
+               normal = download_map(frame.gbuffer().geometric_normals());
     std::vector<ReceiverPoint> receivers;
     for (size_t i = 0; i < position.size(); ++i) {
       receivers.push_back({glm::vec3(position[i]), glm::vec3(normal[i]), position[i].w > 0});

@@ -115,7 +115,7 @@ TEST_F(PluginFault, LightsOnePlaceTooFarAreRefused) {
   expect_refusals(
       {{{"method", "off-by-one"}}}, ErrorKind::refused,
       {"1 of 8 lights of generate.rsm were not written, the first is light 0, and byte 0 past the end of "
-       "lights.rsm (640 bytes) was written"});
+       "lights.rsm (416 bytes) was written"});
 }
 
 // lavapipe cuts the loop off and goes on with what there is; on a GPU the device is lost.

@@ -9,6 +9,7 @@
 #include "measure/stopwatch.h"
 #include "run/memory.h"
 #include "run/references.h"
+#include "run/scene_effects.h"
 #include "run/scene_images.h"
 #include "run/scene_pdfs.h"
 #include "run/scene_rounds.h"
@@ -61,6 +62,7 @@ class SceneRun {
   WallTime* wall_;
   std::optional<GroundTruth> truth_;  // for whole frames
   Stage stage_;
+  SceneEffects effects_;
   SceneClocks clocks_;
   ScenePdfs pdfs_;  // for generation alone
   SceneReport report_;
@@ -97,6 +99,7 @@ SceneRun::SceneRun(Device& device, KernelLibrary& kernels, const Scene& scene, c
       observer_(observer),
       wall_(wall),
       stage_(device, kernels, scene),
+      effects_(scene),
       clocks_(options.device_uuid, report.clocks),
       pdfs_(stage_),
       report_(report),
@@ -130,8 +133,10 @@ CaseInput SceneRun::input_of(CaseRun& run) {
 
 CaseRun& SceneRun::open(const Case& c) {
   const auto begun = earlier_.begun.find(c.id);
+  Case called_for = c;
+  called_for.frame.effects = effects_.of(c.frame);
   CaseRun& run = runs_.emplace_back(
-      c, config_, wall_, [this](const Activity& activity) { observer_.now(activity); },
+      called_for, config_, wall_, [this](const Activity& activity) { observer_.now(activity); },
       begun == earlier_.begun.end() ? CaseProgress() : begun->second);
   const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); };
   guarded(
@@ -147,6 +152,10 @@ CaseRun& SceneRun::open(const Case& c) {
 // --- looking ---
 
 void SceneRun::run(const std::vector<Case>& cases) {
+  if (report_.effects.empty() && !cases.empty()) {
+    const FrameParameters& frame = cases.front().frame;
+    report_.effects = ledger(effects_.decisions(frame.width, frame.height));
+  }
   runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
   look_at_all(cases);
   const bool twin = wants_twin_ && add_twin();

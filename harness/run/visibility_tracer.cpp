@@ -32,7 +32,7 @@ const std::vector<ReceiverPoint>& VisibilityTracer::receivers_of(const Frame& fr
   auto& points = receivers_[{frame.camera().width, frame.camera().height}];
   if (!points.empty()) return points;
   const auto position = download_map(frame.gbuffer().maps[0]);
-  const auto normal = download_map(frame.gbuffer().maps[2]);
+  const auto normal = download_map(frame.gbuffer().geometric_normals());
   // A pixel on the very edge between two walls may lie behind the other wall by rounding: a step towards the
   // eye, whose view of the point is free, brings it back.
   for (size_t i = 0; i < position.size(); ++i) {

@@ -4,6 +4,7 @@
 #define VSGLBENCH_BRDF_GLSL
 
 #include "math.glsl"
+#include "types.h"
 
 // A surface seen from `view` (unit, away from the surface), as the deferred targets hold it.
 struct Surface {
@@ -53,10 +54,12 @@ float ndf_value(float ndf, vec3 n, vec3 h) {
 }
 
 // f(l,v) n·l; zero unless both directions are above the shading normal's and l above the face's horizon.
-vec3 brdf_cosine(Surface s, vec3 l) {
+// `lobes`: those that the surface has (types.h), a constant.
+vec3 brdf_cosine(Surface s, vec3 l, int lobes) {
   float nl = dot(s.normal, l);
   float nv = dot(s.normal, s.view);
   if (nl <= 0.0 || nv <= 0.0 || dot(s.geometric_normal, l) <= 0.0) return vec3(0.0);
+  if ((lobes & SPECULAR_LOBE) == 0) return s.diffuse / PI * nl;
   vec3 h = safe_normalize(l + s.view, s.normal);
   float specular = ndf_value(s.ndf, s.normal, h) * smith_visibility(nl, nv, masking_alpha(s.ndf));
   return (s.diffuse / PI + specular * fresnel(s.f0, dot(l, h))) * nl;

@@ -13,15 +13,17 @@ vec3 from_frame(vec3 axis, vec3 local) {
          local.y * vec3(b, s + axis.y * axis.y * a, -axis.y) + local.z * axis;
 }
 
-// Probability of the specular lobe.
-float specular_share(Surface s) {
+// Probability of the specular lobe. `lobes`: those that the surface has (types.h), a constant.
+float specular_share(Surface s, int lobes) {
+  if ((lobes & SPECULAR_LOBE) == 0) return 0.0;
   float specular = luminance(fresnel(s.f0, dot(s.normal, s.view))), diffuse = luminance(s.diffuse);
   return specular > 0.0 ? specular / (specular + diffuse) : 0.0;
 }
 
 // Density of sample_brdf() per solid angle, 1/sr.
-float brdf_pdf(Surface s, vec3 l) {
-  float share = specular_share(s), nl = dot(s.normal, l);
+float brdf_pdf(Surface s, vec3 l, int lobes) {
+  float share = specular_share(s, lobes), nl = dot(s.normal, l);
+  if ((lobes & SPECULAR_LOBE) == 0) return max(nl, 0.0) / PI;
   vec3 h = safe_normalize(l + s.view, s.normal);
   float lh = dot(l, h), nh = dot(s.normal, h);
   float specular = lh > 0.0 && nh > 0.0 ? ndf_value(s.ndf, s.normal, h) * nh / (4.0 * lh) : 0.0;
@@ -29,9 +31,9 @@ float brdf_pdf(Surface s, vec3 l) {
 }
 
 // `u` uniform in [0,1)², `choose` in [0,1). May lie below the surface, where the BRDF is zero.
-vec3 sample_brdf(Surface s, vec2 u, float choose) {
+vec3 sample_brdf(Surface s, vec2 u, float choose, int lobes) {
   float cosine2;  // of the angle to the normal
-  bool specular = choose < specular_share(s);
+  bool specular = choose < specular_share(s, lobes);
   if (!specular) {
     cosine2 = 1.0 - u.x;
   } else if (s.ndf > 0.0) {

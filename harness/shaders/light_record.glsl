@@ -19,7 +19,13 @@ Light scaled(Light light, float factor) {
 #else
 #define Light Vsgl
 vec3 light_position(Light light) { return light.mean; }
-vec4 light_axis(Light light) { return vec4(light.diffuse_axis, 1.0); }
+vec4 light_axis(Light light) {
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  return vec4(light.diffuse_axis, 1.0);
+#else
+  return vec4(light.specular_axis, 1.0);
+#endif
+}
 float light_sigma(Light light) { return sqrt(light.variance); }
 Light scaled(Light light, float factor) {
   light.variance *= factor;

@@ -17,16 +17,40 @@ struct Lobe {
 };
 
 struct Moments {
-  Lobe diffuse, specular;
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  Lobe diffuse;
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
+  Lobe specular;
+#endif
   vec3 mean;       // μ, weighted with luminance(Φ(Rd+Rs))
   float variance;  // E|y-μ|²
 };
 
 Lobe empty_lobe() { return Lobe(vec3(0.0), vec3(0.0), 1.0); }
-Moments empty_moments() { return Moments(empty_lobe(), empty_lobe(), vec3(0.0), 0.0); }
+Moments empty_moments() {
+  Moments m;
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  m.diffuse = empty_lobe();
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
+  m.specular = empty_lobe();
+#endif
+  m.mean = vec3(0.0);
+  m.variance = 0.0;
+  return m;
+}
 
 float lobe_weight(Lobe l) { return luminance(l.power); }
-float moments_weight(Moments m) { return lobe_weight(m.diffuse) + lobe_weight(m.specular); }
+float moments_weight(Moments m) {
+#if LIGHT_LOBES == DIFFUSE_LOBE
+  return lobe_weight(m.diffuse);
+#elif LIGHT_LOBES == SPECULAR_LOBE
+  return lobe_weight(m.specular);
+#else
+  return lobe_weight(m.diffuse) + lobe_weight(m.specular);
+#endif
+}
 
 // Four sets as one: the k-th counts `factor[k]` times.
 //  direction = Σ w v / Σw;  1-|direction| = Σ w (q + |v| ½|ξ-ξ̄|²) / Σw with ξ, ξ̄ the unit directions.
@@ -53,8 +77,12 @@ Lobe merge_lobes(Lobe a[4], vec4 factor) {
 
 Moments merge(Moments a[4], vec4 factor) {
   Moments m;
+#if LIGHT_LOBES & DIFFUSE_LOBE
   m.diffuse = merge_lobes(Lobe[4](a[0].diffuse, a[1].diffuse, a[2].diffuse, a[3].diffuse), factor);
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
   m.specular = merge_lobes(Lobe[4](a[0].specular, a[1].specular, a[2].specular, a[3].specular), factor);
+#endif
   m.mean = vec3(0.0);
   m.variance = 0.0;
   vec4 w;
@@ -99,8 +127,12 @@ Moments merge_two(Moments a, Moments b) {
   if (total <= 0.0) return empty_moments();
   float fa = wa / total, fb = wb / total;
   Moments m;
+#if LIGHT_LOBES & DIFFUSE_LOBE
   m.diffuse = merge_two(a.diffuse, b.diffuse);
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
   m.specular = merge_two(a.specular, b.specular);
+#endif
   // Offset from the first set: of an empty one, the position means nothing.
   vec3 d = b.mean - a.mean;
   m.mean = wa > 0.0 ? a.mean + fb * d : b.mean;
@@ -113,12 +145,17 @@ Vsgl make_vsgl(Moments m, float factor, float level) {
   Vsgl v;
   v.mean = m.mean;
   v.variance = m.variance < 1e-20 ? 1e-20 : m.variance;  // not max(), which would hide a NaN
-  v.diffuse_sharpness = lobe_sharpness(m.diffuse.q);
+  vec3 axis = vec3(0.0, 1.0, 0.0);
+#if LIGHT_LOBES & SPECULAR_LOBE
   v.specular_sharpness = lobe_sharpness(m.specular.q);
-  v.specular_axis = safe_normalize(m.specular.direction, vec3(0.0, 1.0, 0.0));
-  v.diffuse_axis = safe_normalize(m.diffuse.direction, v.specular_axis);
-  v.diffuse = factor * m.diffuse.power / sg_integral(v.diffuse_sharpness);
+  v.specular_axis = axis = safe_normalize(m.specular.direction, axis);
   v.specular = factor * m.specular.power / sg_integral(v.specular_sharpness);
+#endif
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  v.diffuse_sharpness = lobe_sharpness(m.diffuse.q);
+  v.diffuse_axis = safe_normalize(m.diffuse.direction, axis);
+  v.diffuse = factor * m.diffuse.power / sg_integral(v.diffuse_sharpness);
+#endif
   v.level = level;
   v.power = factor * moments_weight(m);
   return v;

@@ -20,14 +20,17 @@
 // (n·v)²).
 struct Receiver {
   Surface surface;
+#if SURFACE_LOBES & SPECULAR_LOBE
   vec3 x, y, z;
   float eta_x, eta_y;
   float nv, alpha, peak;
+#endif
 };
 
 Receiver make_receiver(Surface s) {
   Receiver r;
   r.surface = s;
+#if SURFACE_LOBES & SPECULAR_LOBE
   r.nv = max(dot(s.normal, s.view), 0.01);
   r.z = reflect(-s.view, s.normal);
   vec3 perpendicular = cross(s.normal, s.view);  // no plane of incidence when looking straight down
@@ -40,9 +43,11 @@ Receiver make_receiver(Surface s) {
   r.eta_y = sharpness / (8.0 * r.nv * r.nv);
   r.alpha = masking_alpha(s.ndf);
   r.peak = ndf_peak(s.ndf);
+#endif
   return r;
 }
 
+#if SURFACE_LOBES & SPECULAR_LOBE
 // ∫ G(ω;ξ,λ) D(h(ω)) of the NDF D: SG × ASG [VSGL15s App. B].
 float receiver_asg(Receiver r, Sg sg) {
   vec3 local = vec3(dot(sg.axis, r.x), dot(sg.axis, r.y), dot(sg.axis, r.z));
@@ -68,9 +73,12 @@ float receiver_filtered(Receiver r, Sg sg, float vh) {
   }
   return sg_integral(sg.sharpness) * ndf_value(ndf, r.surface.normal, h);
 }
+#endif
 
-// ∫ G(ω;ξ,λ) of the specular lobe, with V · F · `cosine` pulled out of the integral at the SG's axis.
+// ∫ G(ω;ξ,λ) of the specular lobe, with V · F · `cosine` pulled out of the integral at the SG's axis; 0 where
+// no surface has one.
 vec3 receiver_specular(Receiver r, Sg sg, float cosine) {
+#if SURFACE_LOBES & SPECULAR_LOBE
   float vh = 0.5 * length(sg.axis + r.surface.view);  // cosine of the half angle
 #if RECEIVER_LOBE == 1
   float lobe = receiver_filtered(r, sg, vh);
@@ -78,6 +86,9 @@ vec3 receiver_specular(Receiver r, Sg sg, float cosine) {
   float lobe = receiver_asg(r, sg);
 #endif
   return fresnel(r.surface.f0, vh) * (smith_visibility(cosine, r.nv, r.alpha) * cosine * lobe);
+#else
+  return vec3(0.0);
+#endif
 }
 
 #endif

@@ -6,13 +6,25 @@
 #include "types.h"
 
 Surface vpl_surface(Vpl light) {
-  return Surface(light.position, light.normal, light.geometric_normal, light.incident, light.diffuse,
-                 light.f0, light.ndf);
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  vec3 diffuse = light.diffuse;
+#else
+  vec3 diffuse = vec3(0.0);
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
+  vec3 f0 = light.f0;
+  float ndf = light.ndf;
+#else
+  vec3 f0 = vec3(0.0);
+  float ndf = 1.0;
+#endif
+  return Surface(light.position, light.normal, light.geometric_normal, light.incident, diffuse, f0, ndf);
 }
 
 // ρ(ω) = Φ f(x1) f(x2) cos cos, ω from the surface to the light [VSGL14 §2].
 vec3 vpl_rho(Surface s, Vpl light, vec3 direction) {
-  return light.flux * brdf_cosine(vpl_surface(light), -direction) * brdf_cosine(s, direction);
+  return light.flux * brdf_cosine(vpl_surface(light), -direction, LIGHT_LOBES) *
+         brdf_cosine(s, direction, SURFACE_LOBES);
 }
 
 // ρ/d². Where the light has a clamp, the geometry term cos cos/d² counts as no more than that, and the

@@ -19,16 +19,20 @@ vec3 shade_vsgl14(Receiver r, Vsgl light, vec3 direction, float distance2, float
   float area = PI * radius2;
   // The light's diffuse lobe has sharpness 0, and its cosine is pulled out [§3.1]: its power over π, times
   // the cosine.
+  vec3 diffuse_receiver = r.surface.diffuse * (nl / PI);
+  vec3 sum = vec3(0.0);
+#if LIGHT_LOBES & DIFFUSE_LOBE
   float emitted = max(dot(-direction, light.diffuse_axis), 0.0);
   vec3 diffuse_light = light.diffuse * (sg_integral(light.diffuse_sharpness) * emitted / PI);
+  sum += (diffuse_receiver * sg_integral(disk.sharpness) + receiver_specular(r, disk, nl)) * diffuse_light;
+#endif
   // Its specular one is a normalised SG with the cosine within [MFIS16 Eq. 7].
+#if LIGHT_LOBES & SPECULAR_LOBE
   float log_s;
   Sg s = sg_product(disk.axis, disk.sharpness, -light.specular_axis, light.specular_sharpness, log_s);
   vec3 specular_light = light.specular * exp(log_s);
-  vec3 diffuse_receiver = r.surface.diffuse * (nl / PI);
-  vec3 sum = diffuse_receiver *
-             (diffuse_light * sg_integral(disk.sharpness) + specular_light * sg_integral(s.sharpness));
-  sum += receiver_specular(r, disk, nl) * diffuse_light + receiver_specular(r, s, nl) * specular_light;
+  sum += (diffuse_receiver * sg_integral(s.sharpness) + receiver_specular(r, s, nl)) * specular_light;
+#endif
   return 2.0 / area * sum;
 }
 

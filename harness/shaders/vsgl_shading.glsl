@@ -31,13 +31,20 @@ vec3 shade_sg(Receiver r, float amplitude, Sg sg) {
 vec3 shade_vsgl16(Receiver r, Vsgl light, vec3 direction, float distance2, float variance) {
   float sharpness = distance2 / variance;     // λ_σ, Eq. (11)
   float scale = 1.0 / (2.0 * PI * variance);  // Eq. (12)
-  float log_d, log_s;
-  Sg d = sg_product(direction, sharpness, -light.diffuse_axis, light.diffuse_sharpness, log_d);
-  Sg s = sg_product(direction, sharpness, -light.specular_axis, light.specular_sharpness, log_s);
   // The lights' own intensities come last: `scale` alone reaches 3.5e23, and what follows makes it small
   // again.
-  return light.diffuse * shade_sg(r, scale * exp(log_d), d) +
-         light.specular * shade_sg(r, scale * exp(log_s), s);
+  vec3 sum = vec3(0.0);
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  float log_d;
+  Sg d = sg_product(direction, sharpness, -light.diffuse_axis, light.diffuse_sharpness, log_d);
+  sum += light.diffuse * shade_sg(r, scale * exp(log_d), d);
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
+  float log_s;
+  Sg s = sg_product(direction, sharpness, -light.specular_axis, light.specular_sharpness, log_s);
+  sum += light.specular * shade_sg(r, scale * exp(log_s), s);
+#endif
+  return sum;
 }
 
 // σ² as VARIANCE says, and no smaller than λ_σ <= 2^41 asks for: nothing overflows.
@@ -78,9 +85,14 @@ bool is_cancelled(Receiver r, Vsgl light, float alpha) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
   float radius2 = disk_radius2(light, distance2);
+  float receiver = 0.0, emitter = 0.0;
+#if SURFACE_LOBES & SPECULAR_LOBE
   vec3 f0 = r.surface.f0;
-  float receiver = max(f0.r, max(f0.g, f0.b)) > 0.0 ? 2.0 * max(r.eta_x, r.eta_y) : 0.0;
-  float emitter = luminance(light.specular) > 0.0 ? light.specular_sharpness : 0.0;
+  receiver = max(f0.r, max(f0.g, f0.b)) > 0.0 ? 2.0 * max(r.eta_x, r.eta_y) : 0.0;
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
+  emitter = luminance(light.specular) > 0.0 ? light.specular_sharpness : 0.0;
+#endif
   return (receiver + emitter) * solid_angle_over_area(sqrt(distance2), radius2) * radius2 < 4.0 * alpha;
 }
 

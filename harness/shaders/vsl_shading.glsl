@@ -38,7 +38,8 @@ bool in_cone(Cone c, vec3 direction) {
 // ρ(ω)/(p_cone + p_receiver + p_emitter): what a direction of any of the three strategies is worth.
 vec3 vsl_term(Surface s, Surface emitter, Vpl light, Cone c, vec3 direction) {
   if (!in_cone(c, direction)) return vec3(0.0);
-  float density = cone_pdf(c) + brdf_pdf(s, direction) + brdf_pdf(emitter, -direction);
+  float density =
+      cone_pdf(c) + brdf_pdf(s, direction, SURFACE_LOBES) + brdf_pdf(emitter, -direction, LIGHT_LOBES);
   return vpl_rho(s, light, direction) / density;
 }
 
@@ -59,8 +60,10 @@ vec3 shade_vsl(Surface s, Vpl light, uint random) {
   for (uint j = 0u; j < count; ++j) {
     vec2 choose = sequence_point(j, seed[3]);
     sum += vsl_term(s, emitter, light, c, sample_cone(c, sequence_point(j, seed[0])));
-    sum += vsl_term(s, emitter, light, c, sample_brdf(s, sequence_point(j, seed[1]), choose.x));
-    sum += vsl_term(s, emitter, light, c, -sample_brdf(emitter, sequence_point(j, seed[2]), choose.y));
+    vec3 by_surface = sample_brdf(s, sequence_point(j, seed[1]), choose.x, SURFACE_LOBES);
+    vec3 by_emitter = -sample_brdf(emitter, sequence_point(j, seed[2]), choose.y, LIGHT_LOBES);
+    sum += vsl_term(s, emitter, light, c, by_surface);
+    sum += vsl_term(s, emitter, light, c, by_emitter);
   }
   return sum / (float(count) * PI * light.radius * light.radius);
 }

@@ -76,9 +76,10 @@ class Cut : public Method {
   void draw(Recorder& r, const Field& field, const LightTarget& target) {
     const uint32_t count = sample_count(target.count);
     const struct {
-      uint32_t width, height, count, step;
+      gpu::Emitter emitter;
+      uint32_t count, step;
       glm::uvec2 shift;
-    } push{field.emitter.width, field.emitter.height, count, lattice_step(count), target.shift};
+    } push{field.emitter, count, lattice_step(count), target.shift};
     r.dispatch(draw_, {*field.maps.position, *field.maps.normal, *field.pdf, samples(field, target.count, 0)},
                push, groups_for(count, 64));
   }
@@ -111,9 +112,10 @@ class Cut : public Method {
 
   void assign(Recorder& r, const Field& field, const LightTarget& target, const Buffer& ids) {
     const struct {
-      uint32_t width, height, count;
+      gpu::Emitter emitter;
+      uint32_t count;
       float direction;
-    } push{field.emitter.width, field.emitter.height, target.count, direction_};
+    } push{field.emitter, target.count, direction_};
     r.dispatch(
         assign_, {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
         push, groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));

@@ -2,14 +2,16 @@
 // takes a block of BLOCK_X × BLOCK_Y texels down the tree together and parts them only where a cut does.
 #version 460
 #include "cut.glsl"
+#include "shading_normal.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler2D position_map;  // xyz, w > 0 where there is a surface
 layout(set = 0, binding = 1) uniform sampler2D normal_map;
 layout(set = 0, binding = 2, scalar) readonly buffer Spaces { Space space; };
 layout(set = 0, binding = 3, scalar) readonly buffer Nodes { Node nodes[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Ids { uint ids[]; };
-layout(push_constant, std430) uniform Push {
-  uint width, height, count;
+layout(push_constant, scalar) uniform Push {
+  Emitter emitter;
+  uint count;
   float direction_length;
 };
 
@@ -27,11 +29,11 @@ uint load_texels(uvec2 corner) {
   uint found = 0u;
   for (uint k = 0u; k < TEXELS; ++k) {
     uvec2 at = texel_at(corner, k);
-    ivec2 inside = ivec2(min(at, uvec2(width, height) - 1u));
+    ivec2 inside = ivec2(min(at, uvec2(emitter.width, emitter.height) - 1u));
     vec4 p = texelFetch(position_map, inside, 0);
-    bool surface = p.w > 0.0 && at.x < width && at.y < height;
+    bool surface = p.w > 0.0 && at.x < emitter.width && at.y < emitter.height;
     position[k] = (p.xyz - space.origin) * space.scale;
-    direction[k] = direction_length * texelFetch(normal_map, inside, 0).xyz;
+    direction[k] = direction_length * shading_normal(emitter, texelFetch(normal_map, inside, 0).xyz, p.xyz);
     light[k] = count;
     found |= surface ? 1u << k : 0u;
     low_p = surface ? min(low_p, position[k]) : low_p;
@@ -110,12 +112,12 @@ void main() {
   uint l = gl_LocalInvocationID.x;
   uvec2 block = gl_WorkGroupID.xy * 8u + uvec2((l & 3u) | (l >> 1 & 4u), (l >> 2 & 1u) | (l >> 3 & 6u));
   uvec2 corner = block * uvec2(BLOCK_X, BLOCK_Y);
-  if (corner.x >= width || corner.y >= height) return;
+  if (corner.x >= emitter.width || corner.y >= emitter.height) return;
   uint texels = load_texels(corner);
   if (space.valid == 0u) texels = 0u;
   descend(descend_together(texels));
   for (uint k = 0u; k < TEXELS; ++k) {
     uvec2 at = texel_at(corner, k);
-    if (at.x < width && at.y < height) ids[at.y * width + at.x] = light[k];
+    if (at.x < emitter.width && at.y < emitter.height) ids[at.y * emitter.width + at.x] = light[k];
   }
 }

@@ -15,8 +15,12 @@ void main() {
     Texel t;
     if (!load_texel(emitter, ivec2(k % emitter.width, k / emitter.width), t)) continue;
     Moments diffuse = leaf_moments(t), specular = diffuse;
+#if LIGHT_LOBES & SPECULAR_LOBE
     diffuse.specular = empty_lobe();
+#endif
+#if LIGHT_LOBES & DIFFUSE_LOBE
     specular.diffuse = empty_lobe();
+#endif
     sum = Pair(merge_two(sum.diffuse, diffuse), merge_two(sum.specular, specular));
   }
   sums[i] = sum;

@@ -7,7 +7,6 @@ namespace {
 
 // Sets that one invocation merges (two_vsgl.glsl).
 constexpr uint32_t kFan = 64;
-constexpr size_t kPairBytes = 2 * 18 * sizeof(float);  // struct Pair
 
 class TwoLights : public Method {
  public:
@@ -44,7 +43,8 @@ class TwoLights : public Method {
 
  private:
   const Buffer& pairs(const char* name, const Field& field, uint32_t count) {
-    return context_.scratch(fmt::format("two-vsgl.{}.{}", name, half_name(field.half)), count * kPairBytes);
+    return context_.scratch(fmt::format("two-vsgl.{}.{}", name, half_name(field.half)),
+                            2 * count * moments_bytes(context_.lobes()));
   }
   MethodContext& context_;
   const Kernel &texels_, &pairs_, &lights_;

@@ -16,7 +16,7 @@ float ndf_value(float ndf, vec3 n, vec3 h) {
   return ndf * ndf / (PI * d * d);
 }
 
-vec3 brdf_cosine(Surface s, vec3 l) {
+vec3 brdf_cosine(Surface s, vec3 l, int lobes) {
   float nl = dot(s.normal, l);
   float nv = dot(s.normal, s.view);
   if (nl <= 0.0 || nv <= 0.0 || dot(s.geometric_normal, l) <= 0.0) return vec3(0.0);

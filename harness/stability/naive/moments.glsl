@@ -28,8 +28,12 @@ Moments merge(Moments a[4], vec4 factor) {
 Moments merge_two(Moments a, Moments b) {
   Moments m = merge(Moments[4](a, b, empty_moments(), empty_moments()), vec4(1.0, 1.0, 0.0, 0.0));
   Moments sound = sound_merge_two(a, b);
+#if LIGHT_LOBES & DIFFUSE_LOBE
   m.diffuse = sound.diffuse;
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
   m.specular = sound.specular;
+#endif
   return m;
 }
 

@@ -1,0 +1,49 @@
+#include "frame/permutation.h"
+
+#include <utility>
+
+#include "shaders/types.h"
+
+namespace vsglbench {
+
+unsigned lobes_of(const EffectSet& effects, Half half) {
+  const bool seen = half == Half::gbuffer;
+  const bool diffuse = effects.has(seen ? Effect::diffuse_receivers : Effect::diffuse_emitters);
+  const bool specular = effects.has(seen ? Effect::glossy_receivers : Effect::glossy_emitters);
+  return (diffuse || !specular ? DIFFUSE_LOBE : 0) | (specular ? SPECULAR_LOBE : 0);
+}
+
+bool has_face_normals(const EffectSet& effects) {
+  return !effects.has(Effect::smooth_normals) && !effects.has(Effect::normal_maps);
+}
+
+ShaderDefines permutation(const EffectSet& effects, Half surfaces, Half lights) {
+  constexpr unsigned both = DIFFUSE_LOBE | SPECULAR_LOBE;
+  ShaderDefines defines;
+  if (const unsigned lobes = lobes_of(effects, surfaces); lobes != both)
+    defines["SURFACE_LOBES"] = std::to_string(lobes);
+  if (const unsigned lobes = lobes_of(effects, lights); lobes != both)
+    defines["LIGHT_LOBES"] = std::to_string(lobes);
+  if (has_face_normals(effects)) defines["FACE_NORMALS"] = "1";
+  return defines;
+}
+
+ShaderDefines raster_permutation(const EffectSet& effects, Half half) {
+  ShaderDefines defines = permutation(effects, half, half);
+  defines.erase("LIGHT_LOBES");
+  for (const auto& [effect, define] :
+       {std::pair(Effect::base_color_textures, "BASE_COLOR_TEXTURES"),
+        std::pair(Effect::metallic_roughness_textures, "METALLIC_ROUGHNESS_TEXTURES"),
+        std::pair(Effect::normal_maps, "NORMAL_MAPS"), std::pair(Effect::smooth_normals, "SMOOTH_NORMALS"),
+        std::pair(Effect::alpha_masks, "ALPHA_MASKS")}) {
+    if (!effects.has(effect)) defines[define] = "0";
+  }
+  return defines;
+}
+
+ShaderDefines merged(ShaderDefines a, const ShaderDefines& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
+}  // namespace vsglbench
