@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
   add_claims_command(app);
   add_compare_command(app, &result);
   add_export_command(app);
+  add_export_frames_command(app);
   for (CLI::App* command : app.get_subcommands({})) {
     command->fallthrough();  // -q and the like may come last
     refuse_no_numbers(command);

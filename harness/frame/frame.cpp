@@ -32,6 +32,12 @@ Frame::Frame(Stage& stage, const MethodInfo& method, const Json& method_paramete
   recorder_.observe(check_.get());
 }
 
+void Frame::follow(const Moved& moved) {
+  if (!moved.any()) return;
+  parts_.halves.follow(moved);
+  parts_.shade.forget();
+}
+
 void Frame::restart() {
   watch_.restart();
   if (check_) check_->restart();

@@ -30,6 +30,10 @@ class Frame {
   // to be timed against a frame that is not.
   FrameTimes render(uint32_t seed, bool watched = false);
 
+  // Takes over what set_frame() moved, after Stage::follow(): every frame then gives the bits of a new one of
+  // the same pose. KeptPdfs stay those of the pose that they were made in.
+  void follow(const Moved& moved);
+
   // For timing generation alone. prepare() draws the halves, which then stand for every frame of these sizes,
   // and makes the PDFs with this frame's method; throws Error(case_failed) for one that uses none, and for
   // PDFs with a NaN or Inf. generate_only() runs nothing but the generate passes, on those halves and PDFs.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/seeds.h"
 #include "frame/shading.h"
 #include "frame/visibility.h"
 #include "scene/effects.h"
@@ -17,6 +18,9 @@ namespace vsglbench {
 enum class Importance { own, vsgl, vpl, flux };
 const std::vector<std::string>& importance_names();    // in the order of the enumeration
 Importance parse_importance(const std::string& name);  // throws Error(config)
+
+const std::vector<std::string>& lattice_names();  // in the order of the enumeration
+Lattice parse_lattice(const std::string& name);   // throws Error(config)
 
 struct FrameParameters {
   uint32_t width = 480, height = 272;  // G-buffer
@@ -31,6 +35,7 @@ struct FrameParameters {
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
   uint32_t progressive = 1;
+  Lattice lattice = Lattice::fixed;  // of an animation: read by who renders its frames
   // What is not among them is left out: passes, channels, lobes and branches of shaders
   // (frame/permutation.h).
   EffectSet effects = EffectSet::all();

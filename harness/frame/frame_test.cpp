@@ -31,7 +31,7 @@ std::vector<uint32_t> all_visible(size_t lights, uint64_t pixels) {
 
 struct Session {
   explicit Session(const Scene& s, Device& d = device()) : kernels(d), stage(d, kernels, s) {}
-  std::unique_ptr<Frame> frame(const std::string& method, FrameParameters p,
+  std::unique_ptr<Frame> frame(const std::string& method, const FrameParameters& p,
                                const Json& own = Json::object()) {
     const MethodInfo& info = load_method(method, kernels.device().info());
     const uint64_t pixels = uint64_t(p.width) * p.height;

@@ -4,16 +4,34 @@ namespace vsglbench {
 
 Halves::Halves(Stage& stage, uint32_t width, uint32_t height, uint32_t rsm, const EffectSet& effects)
     : stage_(stage), effects_(effects) {
-  const auto see = [&](Half half, const View& view, uint32_t w, uint32_t h, const glm::vec3& power) {
+  const auto make = [&](Half half, uint32_t w, uint32_t h) {
     Seen& seen = seen_[static_cast<size_t>(half)];
-    seen.view = view;
     seen.targets = &stage.targets(half, w, h, effects);
-    seen.emitter = make_emitter(view, w, h, power, half == Half::gbuffer);
     seen.buffer = Buffer(stage.device, half == Half::gbuffer ? "camera" : "light", sizeof seen.emitter);
-    seen.buffer.upload(&seen.emitter, sizeof seen.emitter);
   };
-  see(Half::gbuffer, camera_view(stage.scene.camera, width, height), width, height, glm::vec3(1));
-  see(Half::rsm, light_view(stage.scene.light), rsm, rsm, stage.scene.light.power);
+  make(Half::gbuffer, width, height);
+  make(Half::rsm, rsm, rsm);
+  see_camera();
+  see_light();
+}
+
+void Halves::see(Half half, const View& view, const glm::vec3& power) {
+  Seen& seen = seen_[static_cast<size_t>(half)];
+  seen.view = view;
+  seen.emitter = make_emitter(view, seen.targets->width, seen.targets->height, power, half == Half::gbuffer);
+  seen.buffer.upload(&seen.emitter, sizeof seen.emitter);
+}
+
+void Halves::see_camera() {
+  const DeferredTargets& targets = *of(Half::gbuffer).targets;
+  see(Half::gbuffer, camera_view(stage_.scene.camera, targets.width, targets.height), glm::vec3(1));
+}
+
+void Halves::see_light() { see(Half::rsm, light_view(stage_.scene.light), stage_.scene.light.power); }
+
+void Halves::follow(const Moved& moved) {
+  if (moved.camera) see_camera();
+  if (moved.light) see_light();
 }
 
 void Halves::draw(Recorder& recorder) const {

@@ -10,6 +10,8 @@ namespace vsglbench {
 class Halves {
  public:
   Halves(Stage& stage, uint32_t width, uint32_t height, uint32_t rsm, const EffectSet& effects);
+  // Takes over what set_frame() moved of camera and light.
+  void follow(const Moved& moved);
   // Rasterises both.
   void draw(Recorder& recorder) const;
 
@@ -27,6 +29,9 @@ class Halves {
     Buffer buffer;  // the emitter, for shaders
   };
   const Seen& of(Half half) const { return seen_[static_cast<size_t>(half)]; }
+  void see_camera();
+  void see_light();
+  void see(Half half, const View& view, const glm::vec3& power);
   Stage& stage_;
   EffectSet effects_;
   std::array<Seen, 2> seen_;

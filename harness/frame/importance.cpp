@@ -22,6 +22,18 @@ Importance parse_importance(const std::string& name) {
   throw fail(ErrorKind::config, "no importance '{}'{}", name, suggestion(name, names));
 }
 
+const std::vector<std::string>& lattice_names() {
+  static const std::vector<std::string> names = {"fixed", "shifted"};
+  return names;
+}
+
+Lattice parse_lattice(const std::string& name) {
+  const auto& names = lattice_names();
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it != names.end()) return static_cast<Lattice>(it - names.begin());
+  throw fail(ErrorKind::config, "no lattice '{}'{}", name, suggestion(name, names));
+}
+
 ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const MethodInfo& own,
                                const Json& method_parameters, const FrameParameters& p)
     : stage_(stage), halves_(halves), shading_(p.shading), effects_(p.effects) {

@@ -64,24 +64,45 @@ const RasterPipeline& SceneGpu::pipeline(const ShaderDefines& defines, size_t ta
 }
 
 void SceneGpu::upload_geometry(Device& device, const Scene& scene) {
-  std::vector<gpu::Vertex> vertices(scene.positions.size());
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i] = {scene.positions[i], scene.normals[i], scene.tangents[i], scene.uvs[i]};
-  }
-  vertices_ = Buffer(device, "vertices", vertices.size() * sizeof(gpu::Vertex));
-  vertices_.upload(std::span<const gpu::Vertex>(vertices));
+  vertices_ = Buffer(device, "vertices", scene.positions.size() * sizeof(gpu::Vertex));
+  upload_vertices(scene, 0, scene.positions.size());
   indices_ = Buffer(device, "indices", scene.triangles.size() * sizeof(glm::uvec3));
   indices_.upload(std::span<const glm::uvec3>(scene.triangles));
-  std::vector<glm::vec4> normals(scene.triangles.size());
-  for (size_t i = 0; i < normals.size(); ++i) {
-    const glm::uvec3 t = scene.triangles[i];
+  face_normals_ = Buffer(device, "face normals", scene.triangles.size() * sizeof(glm::vec4));
+  upload_face_normals(scene, 0, scene.triangles.size());
+}
+
+size_t SceneGpu::upload_vertices(const Scene& scene, size_t first, size_t count) {
+  std::vector<gpu::Vertex> vertices(count);
+  for (size_t i = 0; i < count; ++i) {
+    const size_t v = first + i;
+    vertices[i] = {scene.positions[v], scene.normals[v], scene.tangents[v], scene.uvs[v]};
+  }
+  vertices_.upload(vertices.data(), count * sizeof(gpu::Vertex), first * sizeof(gpu::Vertex));
+  return count * sizeof(gpu::Vertex);
+}
+
+size_t SceneGpu::upload_face_normals(const Scene& scene, size_t first, size_t count) {
+  std::vector<glm::vec4> normals(count);
+  for (size_t i = 0; i < count; ++i) {
+    const glm::uvec3 t = scene.triangles[first + i];
     const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
     const glm::dvec3 n = glm::cross(b - a, c - a);
     // A triangle of no area covers no sample: its normal is never read.
     normals[i] = glm::length(n) > 0 ? glm::vec4(glm::normalize(n), 0) : glm::vec4(0, 1, 0, 0);
   }
-  face_normals_ = Buffer(device, "face normals", normals.size() * sizeof(glm::vec4));
-  face_normals_.upload(std::span<const glm::vec4>(normals));
+  face_normals_.upload(normals.data(), count * sizeof(glm::vec4), first * sizeof(glm::vec4));
+  return count * sizeof(glm::vec4);
+}
+
+size_t SceneGpu::update(const Scene& scene, const Moved& moved) {
+  size_t bytes = 0;
+  for (const uint32_t index : moved.objects) {
+    const MovingObject& object = scene.animation.objects.at(index);
+    bytes += upload_vertices(scene, object.first_vertex, object.vertex_count);
+    bytes += upload_face_normals(scene, object.first_triangle, object.triangle_count);
+  }
+  return bytes;
 }
 
 void SceneGpu::upload_textures(Device& device, const Scene& scene) {

@@ -46,6 +46,9 @@ class SceneGpu {
   void draw(Recorder& recorder, const View& view, const Buffer& viewer, const DeferredTargets& targets,
             const ShaderDefines& defines = {});
   uint64_t triangle_count() const { return triangles_; }
+  // Uploads what set_frame() moved of `scene`, the one this was made of: vertices and face normals of those
+  // objects and nothing else. Waits for the device; no frame may be at work. Returns the bytes.
+  size_t update(const Scene& scene, const Moved& moved);
 
  private:
   struct Draw {
@@ -54,6 +57,8 @@ class SceneGpu {
     std::array<int, 3> textures{-1, -1, -1};
   };
   void upload_geometry(Device& device, const Scene& scene);
+  size_t upload_vertices(const Scene& scene, size_t first, size_t count);
+  size_t upload_face_normals(const Scene& scene, size_t first, size_t count);
   void upload_textures(Device& device, const Scene& scene);
   void make_draws(const Scene& scene);
 

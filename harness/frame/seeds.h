@@ -26,4 +26,13 @@ inline glm::uvec2 iteration_shift(uint32_t seed, uint32_t iteration) {
   return lattice_shift(seed) + iteration * glm::uvec2(3242174889u, 2447445414u);
 }
 
+// What the lattice does from one frame of an animation to the next: it stays, or is shifted anew in each.
+enum class Lattice { fixed, shifted };
+
+// The seed of a frame of an animation that is rendered with `seed`: frame 0 has its own.
+inline uint32_t seed_in_frame(uint32_t seed, uint32_t frame, Lattice lattice) {
+  if (lattice == Lattice::fixed || frame == 0) return seed;
+  return static_cast<uint32_t>(mix(mix(seed) ^ frame));
+}
+
 }  // namespace vsglbench

@@ -28,6 +28,8 @@ class ShadePass {
 
   // The host's shadow rays to the lights that were just made, unless they are the last ones.
   void trace();
+  // After the scene has moved: the next lights are traced though they be the last ones.
+  void forget() { traced_.clear(); }
   // Passes shade.texels, visibility.* and shade; iterations after the first add to what is there.
   void record(Recorder& recorder, uint32_t seed, uint32_t iteration);
 

@@ -9,6 +9,11 @@ std::filesystem::path frame_kernel(const char* file) { return data_root() / "har
 Stage::Stage(Device& d, KernelLibrary& k, const Scene& s)
     : device(d), kernels(k), scene(s), scratch(d), geometry(d, s) {}
 
+size_t Stage::follow(const Moved& moved) {
+  if (!moved.objects.empty()) shadow_maps_.clear();
+  return geometry.update(scene, moved);
+}
+
 DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height, const EffectSet& effects) {
   const unsigned lobes = lobes_of(effects, half);
   const Channels channels{.geometric_normal = !has_face_normals(effects),

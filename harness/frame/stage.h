@@ -27,7 +27,12 @@ struct FrameMemory {
 
 class Stage {
  public:
+  // Keeps a reference to `scene`, which must not change while the stage lives but by set_frame(), after which
+  // follow() is due, and then that of every frame that is to render.
   Stage(Device& device, KernelLibrary& kernels, const Scene& scene);
+  // Takes over what set_frame() moved. What stands still is not uploaded again. Points and clusters of shadow
+  // maps lie on all surfaces, and are made anew where objects moved. Returns the bytes uploaded.
+  size_t follow(const Moved& moved);
   Device& device;
   KernelLibrary& kernels;
   const Scene& scene;

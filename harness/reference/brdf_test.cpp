@@ -202,7 +202,7 @@ double albedo(const Surface& s, const glm::vec3& v) {
   const Brdf brdf(s, v);
   constexpr uint32_t n = 20000;
   double sum = 0;
-  const Lattice lattice(n, {0x1000, 0x3000, 0x7000});
+  const PointLattice lattice(n, {0x1000, 0x3000, 0x7000});
   for (uint32_t i = 0; i < n; ++i) {
     glm::vec3 l;
     if (!brdf.sample(lattice.point(i), &l)) continue;

@@ -37,9 +37,9 @@ inline glm::vec4 random4(uint64_t seed, Stream stream, uint32_t batch, uint32_t 
 // A rank-1 lattice of n points in three dimensions, moved on the torus by `shift` (Cranley and Patterson
 // 1976): Fibonacci's (i/n, frac(i/phi)) and one more additive recurrence, frac(i/sqrt 2). In units of 2^-32,
 // where overflow is the torus.
-class Lattice {
+class PointLattice {
  public:
-  Lattice(uint32_t n, const glm::uvec3& shift)
+  PointLattice(uint32_t n, const glm::uvec3& shift)
       : step_(static_cast<uint32_t>((uint64_t(1) << 32) / n), 0x9e3779b9u, 0xb504f334u), shift_(shift) {}
   glm::uvec3 bits(uint32_t i) const { return i * step_ + shift_; }
   glm::vec3 point(uint32_t i) const { return to_unit(bits(i)); }

@@ -175,7 +175,7 @@ uint32_t Strategies::connect_light(const ReceiverGroup& group, const Emitter& x1
 
 void Strategies::gather_light(const ReceiverGroup& group, uint32_t tile, const glm::uvec3& shift, bool teach,
                               RayStream& rays, glm::vec3* estimate) {
-  const Lattice lattice(counts_.light, shift);
+  const PointLattice lattice(counts_.light, shift);
   Lesson lesson;
   const Emitter* next = &choose(tile, lattice.bits(0));
   for (uint32_t i = 0; i < counts_.light; ++i) {
@@ -202,7 +202,7 @@ void Strategies::gather_light(const ReceiverGroup& group, uint32_t tile, const g
 glm::vec3 Strategies::gather_receiver(uint32_t pixel, uint32_t batch, RayStream& rays) const {
   const Footprint& x2 = footprints_[pixel];
   const uint32_t n = receiver_samples(x2);
-  const Lattice directions(n, glm::uvec3(random_bits(seed_, Stream::receiver, batch, pixel)));
+  const PointLattice directions(n, glm::uvec3(random_bits(seed_, Stream::receiver, batch, pixel)));
   glm::vec3 sum(0);
   for (uint32_t i = 0; i < n; ++i) sum += from_receiver(x2, directions.point(i), rays);
   return sum;
@@ -264,7 +264,7 @@ bool Strategies::land(const Emitter& x1, const glm::vec3& direction, const Hit& 
 
 void Strategies::emit(uint32_t first, uint32_t last, uint32_t batch, RayStream& rays,
                       std::vector<Splat>* splats) const {
-  const Lattice lattice(counts_.photons, glm::uvec3(random_bits(seed_, Stream::photon_plane, batch, 0)));
+  const PointLattice lattice(counts_.photons, glm::uvec3(random_bits(seed_, Stream::photon_plane, batch, 0)));
   for (uint32_t i = first; i < last; ++i) {
     // x1: a cell of the photons' guide, a place in it.
     const glm::uvec3 bits = lattice.bits(i);

@@ -179,14 +179,33 @@ struct SeedResult {
   std::optional<double> flux;  // as FluxResult, of this seed's lights
 };
 
+// How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
+// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds, and
+// worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image of
+// seed i is from the mean of all, and worst_frame the seed of its largest; it has no interval.
 struct FlickerSeries {
-  double value = 0, p99 = 0;
+  double value = 0;
+  double p99 = 0;  // 99th percentile over pixels; of `derivative` the mean over seeds
   uint64_t worst_frame = 0;
   std::vector<double> series;
+  std::optional<Interval> ci95;
+  std::string formula;  // MetricFormula::id
 };
 
+// The reference's detail that is kept (image/detail.h), as FlickerSeries.
+struct DetailResult {
+  double value = 0;
+  std::optional<Interval> ci95;
+  std::string formula;
+};
+
+// Over the first `frames` frames of a scene in motion, each rendered with `seeds` seeds.
 struct Temporal {
-  FlickerSeries derivative, still;  // "derivative" and "static" in the file
+  FlickerSeries derivative;
+  std::optional<FlickerSeries> still;  // "static" in the file; absent for a single seed
+  std::optional<DetailResult> detail;  // absent where the references have none
+  uint64_t frames = 0, seeds = 0;
+  std::vector<std::string> references;  // their hashes, one a frame
 };
 
 // Where the first NaN or Inf is: in a pixel of the image or, where that shows none, in a light. When every

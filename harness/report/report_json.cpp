@@ -202,11 +202,23 @@ void fields(auto& a, Is<FlickerSeries> auto& v) {
   a("p99", v.p99);
   a("worst_frame", v.worst_frame);
   a("series", v.series);
+  a("ci95", v.ci95);
+  a("formula", v.formula);
+}
+
+void fields(auto& a, Is<DetailResult> auto& v) {
+  a("value", v.value);
+  a("ci95", v.ci95);
+  a("formula", v.formula);
 }
 
 void fields(auto& a, Is<Temporal> auto& v) {
   a("derivative", v.derivative);
   a("static", v.still);
+  a("detail", v.detail);
+  a("frames", v.frames);
+  a("seeds", v.seeds);
+  a("references", v.references);
 }
 
 void fields(auto& a, Is<FirstBad> auto& v) {

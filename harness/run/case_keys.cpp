@@ -155,6 +155,10 @@ std::vector<CaseKey> table() {
              "images of so many light sets are averaged, the lights' radius × 2/3 from one to the next "
              "[VSGL14 §5]"},
             &P::progressive, 1, kMaxProgressive),
+      choice({"lattice", kFrame, kIfDifferent,
+              "of an animation: whether the points that lights are drawn by stay from frame to frame, or are "
+              "shifted anew in each"},
+             &P::lattice, parse_lattice, lattice_names()),
       number({"bias_reduction", kFrame | kVsgl, kIfDifferent,
               "α of the consistent bias reduction [VSGL14 §3.3]; 0: none"},
              &P::bias_reduction, kMaxFactor),

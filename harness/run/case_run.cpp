@@ -138,7 +138,7 @@ void CaseRun::look() {
 void CaseRun::look_at(uint32_t seed) {
   render(seed, true);
   const bool has_image = config_.measure == Measure::frame;
-  if (has_image && !scoring_) scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask());
+  if (has_image && !scoring_) scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference));
   Image image;
   if (has_image) image = frame_->results().indirect();
   if (has_image) check_health_of(image);
@@ -184,9 +184,29 @@ void CaseRun::step() {
   });
 }
 
-Mask CaseRun::make_mask() const {
+void CaseRun::follow(const Moved& moved) {
+  if (frame_) frame_->follow(moved);
+}
+
+// Rays of frames in motion are not those of the frames that are timed.
+std::optional<CaseRun::Look> CaseRun::look_in_motion(uint32_t frame, uint32_t seed,
+                                                     const ReferenceResult& reference) {
+  std::optional<Look> look;
+  attempt(fmt::format("frame {} in motion, seed {}", frame, seed), [&] {
+    const size_t rays = rays_ms_.size();
+    render(seed_in_frame(seed, frame, case_.frame.lattice), true);
+    rays_ms_.resize(rays);
+    Image image = frame_->results().indirect();
+    if (!check_health(image).finite()) check_health_of(image);
+    check_lights();
+    look = Look{std::move(image), make_mask(reference)};
+  });
+  return look;
+}
+
+Mask CaseRun::make_mask(const ReferenceResult& reference) const {
   Mask mask = frame_->results().surface_mask();
-  for (size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] && input_.reference->mask[i];
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] && reference.mask[i];
   return mask;
 }
 

@@ -45,7 +45,21 @@ class CaseRun {
   bool scored() const { return scored_; }  // looked at and settled, by this process or by another
   // Everything but times, once it is settled; the images are the caller's to add.
   ScoredCase score() const { return {result_, rays_ms_}; }
-  void add_images(const std::map<std::string, std::string>& images) { result_.images = images; }
+  void add_images(const std::map<std::string, std::string>& images) {
+    for (const auto& [name, path] : images) result_.images[name] = path;
+  }
+  // Takes over what set_frame() moved, after Stage::follow().
+  void follow(const Moved& moved);
+  // A frame of the scene's pose, checked as those of look(), with `reference`, of that pose; nothing where the
+  // case fails.
+  struct Look {
+    Image image;
+    Mask mask;  // as mask()
+  };
+  std::optional<Look> look_in_motion(uint32_t frame, uint32_t seed, const ReferenceResult& reference);
+  bool has_temporal() const { return result_.temporal.has_value(); }
+  void add_temporal(Temporal temporal) { result_.temporal = std::move(temporal); }
+  uint32_t seeds() const;  // to be looked at
   // One untimed frame of seed 0.
   void warm_up();
   // The next timed frame, of seed 0, until the stopping rule is met.
@@ -85,10 +99,9 @@ class CaseRun {
   template <class Action>
   void attempt(const std::string& name, const Action& action);
   void announce(bool limited) const;
-  uint32_t seeds() const;  // to be looked at
   FrameTimes render(uint32_t seed, bool watched = false);
   void look_at(uint32_t seed);
-  Mask make_mask() const;
+  Mask make_mask(const ReferenceResult& reference) const;
   void check_health_of(const Image& image);
   void check_memory();
   void check_lights();

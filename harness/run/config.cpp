@@ -120,10 +120,17 @@ void read_reference(const JsonDocument& doc, Config* config) {
   }
 }
 
+void read_motion(const JsonDocument& doc, Config* config) {
+  if (!doc.root().contains("motion")) return;
+  MotionSettings& motion = config->motion.emplace();
+  motion.frames = doc.root().at("motion").value("frames", motion.frames);
+  motion.seeds = doc.root().at("motion").value("seeds", motion.seeds);
+}
+
 // What only an image is judged with is refused where there is none.
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
-  std::vector<std::string> unread = {"seeds", "reference", "ism"};
+  std::vector<std::string> unread = {"seeds", "reference", "ism", "motion"};
   for (const CaseKey& key : case_keys()) {
     if (key.scope & kFrame) unread.push_back(key.name);
   }
@@ -159,6 +166,10 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
       out["reference"]["floor"] = fmt::format("{}%", config.reference.floor);
       out["reference"]["time_limit_s"] = config.reference.time_limit_s;
     }
+  }
+  if (config.motion) {
+    out["motion"] = {{"seeds", config.motion->seeds}};
+    if (config.motion->frames > 0) out["motion"]["frames"] = config.motion->frames;
   }
   if (generation) out["pdfs_made_by"] = ScenePdfs::maker().name;
   out["time_limit_s"] = config.time_limit_s;
@@ -206,6 +217,7 @@ Config load_config(const fs::path& path, const Overrides& overrides) {
   check_scenes(doc, config.scenes);
   read_timing(doc, &config);
   read_reference(doc, &config);
+  read_motion(doc, &config);
   const Json preset = preset_of(doc, root, "");
   const FrameParameters base = base_parameters(root, preset);
   config.cases = expand_cases(doc, root, overrides, base);

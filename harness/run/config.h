@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct ReferenceSettings {
   ShadingNormals shading_normals = ShadingNormals::light;
 };
 
+// Flicker is measured over the first frames of a scene in motion.
+struct MotionSettings {
+  uint32_t frames = 0;  // at most; 0: all that the scene has
+  uint32_t seeds = 2;   // of every randomised method; each renders all frames
+};
+
 struct Config {
   std::string name, description;
   Measure measure = Measure::frame;
@@ -30,6 +37,7 @@ struct Config {
   double time_limit_s = 600;  // of one action of a case, such as a frame: after that it hangs
   StoppingRule timing{0.02, 8, 200, 30};
   ReferenceSettings reference;
+  std::optional<MotionSettings> motion;  // nothing: frame 0 alone is looked at
   Json resolved;  // with every default filled in: the report's `config`
 };
 

@@ -83,7 +83,7 @@ References::Slot& References::slot(const Case& c) {
   if (!slot.result && !slot.error) {
     const Stopwatch watch;
     try {
-      slot.result = std::make_unique<ReferenceResult>(obtain(c, occlusion));
+      slot.result = std::make_unique<ReferenceResult>(obtain(c));
       slot.info = describe(scene_, *slot.result);
     } catch (const Error& e) {
       slot.error = e;
@@ -94,18 +94,23 @@ References::Slot& References::slot(const Case& c) {
   return slot;
 }
 
-ReferenceResult References::obtain(const Case& c, bool occlusion) {
-  require_reference_memory(c.frame.width, c.frame.height);
+ReferenceParameters reference_parameters(const Config& config, const Case& c) {
   ReferenceParameters p;
   p.width = c.frame.width;
   p.height = c.frame.height;
-  p.samples = config_.reference.samples;
-  p.batches = config_.reference.batches;
-  p.seed = config_.reference.seed;
-  p.shading_normals = config_.reference.shading_normals;
-  p.floor = config_.reference.floor;
-  if (p.floor > 0) p.time_limit = config_.reference.time_limit_s;
-  p.occlusion = occlusion;
+  p.samples = config.reference.samples;
+  p.batches = config.reference.batches;
+  p.seed = config.reference.seed;
+  p.shading_normals = config.reference.shading_normals;
+  p.floor = config.reference.floor;
+  if (p.floor > 0) p.time_limit = config.reference.time_limit_s;
+  p.occlusion = c.frame.visibility != Visibility::none;
+  return p;
+}
+
+ReferenceResult References::obtain(const Case& c) {
+  require_reference_memory(c.frame.width, c.frame.height);
+  const ReferenceParameters p = reference_parameters(config_, c);
   const Stopwatch watch;
   bool cached = false;
   ReferenceResult result = load_or_compute(scene_, p, &cached);
@@ -115,7 +120,7 @@ ReferenceResult References::obtain(const Case& c, bool occlusion) {
   }
   log_info(
       "{}: reference{} of {} samples{} {} ({}), noise floor {:.2f} % SMAPE, its mean known to {:.2f} %{}",
-      scene_.name, occlusion ? "" : " without occlusion", result.samples, rounding_of(result, p),
+      scene_.name, p.occlusion ? "" : " without occlusion", result.samples, rounding_of(result, p),
       cached ? "from the cache" : "computed", format_duration(watch.seconds()), result.noise_floor_smape,
       100 * result.standard_error, end_of_search(result, p));
   return result;

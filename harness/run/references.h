@@ -19,6 +19,9 @@ std::string end_of_search(const ReferenceResult& result, const ReferenceParamete
 // " (100 asked for, rounded up to 16 equal batches)"; nothing where it is what was asked for, or a floor was.
 std::string rounding_of(const ReferenceResult& result, const ReferenceParameters& parameters);
 
+// Of the reference that a case is compared with.
+ReferenceParameters reference_parameters(const Config& config, const Case& c);
+
 // By frame size and occlusion: `none` is compared without occlusion between the bounces, all else with it.
 class References {
  public:
@@ -38,7 +41,7 @@ class References {
     std::optional<Error> error;
   };
   Slot& slot(const Case& c);
-  ReferenceResult obtain(const Case& c, bool occlusion);
+  ReferenceResult obtain(const Case& c);
   const Scene& scene_;
   const Config& config_;
   WallTime* wall_;

@@ -22,8 +22,6 @@ constexpr size_t kLongestName = 120;
 
 std::string short_hash(const std::string& text) { return Hasher().text(text).hex().substr(0, 8); }
 
-std::string folder_of(const std::string& scene) { return "images/" + file_name(scene); }
-
 // "N=256,rsm=256,vis=exact": the last part of a case's id. C: Case or CaseResult.
 template <class C>
 std::string parameters_of(const C& c) {
@@ -40,7 +38,7 @@ std::string write_pair(const fs::path& out, const std::string& stem, const Image
 
 std::string write_reference(const fs::path& out, const std::string& scene, const ReferenceResult& reference,
                             float exposure) {
-  const std::string stem = fmt::format("{}/reference-{}", folder_of(scene), reference.hash.substr(0, 8));
+  const std::string stem = fmt::format("{}/reference-{}", scene_folder(scene), reference.hash.substr(0, 8));
   std::error_code ec;
   if (fs::exists(out / (stem + ".exr"), ec) && fs::exists(out / (stem + ".png"), ec)) return stem + ".exr";
   return write_pair(out, stem, reference.mean, reference.mask, exposure);
@@ -50,7 +48,7 @@ std::string write_reference(const fs::path& out, const std::string& scene, const
 std::map<std::string, std::string> write_case(const fs::path& out, const CaseRun& run, float exposure,
                                               const std::string& reference) {
   const Case& c = run.description();
-  const std::string stem = folder_of(c.scene) + "/" + file_name(c.method) + "/" + file_name(parameters_of(c));
+  const std::string stem = image_stem(c);
   const Image error = error_map(*run.image(), run.reference()->mean, run.mask());
   write_exr(out / (stem + ".error.exr"), error, run.mask());
   write_png(out / (stem + ".error.png"), color_error_map(error, ContactSheet().error_range, run.mask()));
@@ -111,6 +109,12 @@ ContactSheet sheet_of(const fs::path& out, const std::vector<CaseResult>& cases,
 }
 
 }  // namespace
+
+std::string scene_folder(const std::string& scene) { return "images/" + file_name(scene); }
+
+std::string image_stem(const Case& c) {
+  return scene_folder(c.scene) + "/" + file_name(c.method) + "/" + file_name(parameters_of(c));
+}
 
 // Medians of heavy-tailed seeds: the sheet has no room for ranges.
 std::string figures_of(const CaseResult& c) {
@@ -206,7 +210,7 @@ void SceneImages::write_direct(Frame& frame) {
   };
   guarded(
       [&] {
-        write_pair(out_, folder_of(scene_->name) + "/direct", frame.render_direct(),
+        write_pair(out_, scene_folder(scene_->name) + "/direct", frame.render_direct(),
                    frame.results().surface_mask(), static_cast<float>(scene_->exposure));
       },
       warn);
@@ -218,7 +222,7 @@ void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const Refere
     log_warning("{}: {}", scene_->name, message);
   };
   const auto write_it = [&] {
-    const std::string folder = folder_of(scene_->name);
+    const std::string folder = scene_folder(scene_->name);
     const auto pages = contact_pages(sheet_of(out_, cases, *scene_, shown, info));
     remove_sheet(out_ / folder);
     for (size_t i = 0; i < pages.size(); ++i) {

@@ -17,6 +17,11 @@ namespace vsglbench {
 // meet.
 std::string file_name(const std::string& name);
 
+// "images/cornell": where a scene's pictures lie, below the report's folder; and how the names of a case's
+// begin, "images/cornell/mfis/N=256,rsm=256,vis=exact".
+std::string scene_folder(const std::string& scene);
+std::string image_stem(const Case& c);
+
 // "SMAPE 24.8 %   lit 21 %   RMSE 0.0155", and in a second line "bias −19.9 %   FLIP 0.12   method 41.5 ms",
 // or why there are no errors.
 std::string figures_of(const CaseResult& c);

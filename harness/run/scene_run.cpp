@@ -6,41 +6,23 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
-#include "measure/stopwatch.h"
+#include "run/ground_truth.h"
 #include "run/memory.h"
-#include "run/references.h"
 #include "run/scene_effects.h"
 #include "run/scene_images.h"
+#include "run/scene_motion.h"
 #include "run/scene_pdfs.h"
 #include "run/scene_rounds.h"
-#include "run/visibility_tracer.h"
+#include "scene/animation.h"
 
 namespace vsglbench {
 namespace {
 
-// What whole frames need beside the device: the scene in the ray tracer.
-struct GroundTruth {
-  GroundTruth(const Scene& scene, const Config& config, WallTime* wall)
-      : tracer(timed_tracer(scene, wall)), references(scene, config, wall), visibility(tracer, wall) {}
-  Tracer tracer;
-  References references;
-  VisibilityTracer visibility;
-
- private:
-  static Tracer timed_tracer(const Scene& scene, WallTime* wall) {
-    struct Timer {
-      WallTime* wall;
-      Stopwatch watch;
-      ~Timer() { wall->references_s += watch.seconds(); }
-    } timer{wall, {}};
-    return Tracer(scene);
-  }
-};
-
 // One scene on the device and in the ray tracer, and its cases.
 class SceneRun {
  public:
-  SceneRun(Device& device, KernelLibrary& kernels, const Scene& scene, const Config& config,
+  // `scene` is posed in its frames, and left in the first.
+  SceneRun(Device& device, KernelLibrary& kernels, Scene& scene, const Config& config,
            const SceneReport& report, const SceneOutcome& earlier, const SceneRunOptions& options,
            SceneObserver& observer, WallTime* wall);
 
@@ -51,12 +33,15 @@ class SceneRun {
   CaseInput input_of(CaseRun& run);
   void look_at_all(const std::vector<Case>& cases);
   void settle(CaseRun& run);
+  void look_at_motion();
   bool add_twin();
   void conclude(CaseRun& run);
   void draw_sheet();
   void harness_works(const std::string& what) { observer_.now({"", what, false}); }
 
+  Scene& scene_;
   const Config& config_;
+  const std::filesystem::path out_;
   const SceneOutcome& earlier_;
   SceneObserver& observer_;
   WallTime* wall_;
@@ -91,10 +76,12 @@ SceneReport describe(const Scene& scene, const std::string& name) {
   return report;
 }
 
-SceneRun::SceneRun(Device& device, KernelLibrary& kernels, const Scene& scene, const Config& config,
+SceneRun::SceneRun(Device& device, KernelLibrary& kernels, Scene& scene, const Config& config,
                    const SceneReport& report, const SceneOutcome& earlier, const SceneRunOptions& options,
                    SceneObserver& observer, WallTime* wall)
-    : config_(config),
+    : scene_(scene),
+      config_(config),
+      out_(options.out),
       earlier_(earlier),
       observer_(observer),
       wall_(wall),
@@ -158,6 +145,7 @@ void SceneRun::run(const std::vector<Case>& cases) {
   }
   runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
   look_at_all(cases);
+  if (config_.motion) look_at_motion();
   const bool twin = wants_twin_ && add_twin();
   SceneRounds(runs_, twin, config_, observer_, [this](CaseRun& run) {
     conclude(run);
@@ -190,6 +178,25 @@ void SceneRun::settle(CaseRun& run) {
   if (earlier) return;
   observer_.described(report_);
   observer_.scored(run.score());
+}
+
+// All of a scene's cases at once, frame by frame.
+void SceneRun::look_at_motion() {
+  if (frame_count(scene_) < 2) {
+    log_warning("{}: stands still: no flicker is measured", report_.name);
+    return;
+  }
+  SceneMotion motion(scene_, stage_, *truth_, config_, out_, report_, observer_, wall_);
+  for (CaseRun& run : runs_) motion.add(run);
+  motion.run();
+  for (CaseRun& run : runs_) {
+    if (run.concluded()) continue;
+    if (run.failed()) {
+      conclude(run);
+    } else if (motion.has_measured(run)) {
+      observer_.scored(run.score());
+    }
+  }
 }
 
 // The first case that has proved sound, under another name: what the two show as a difference is noise.
@@ -261,7 +268,7 @@ void run_scene(Device& device, KernelLibrary& kernels, const std::string& name, 
   };
   const auto run = [&] {
     observer.now({"", "loading the scene", false});
-    const Scene scene = load_scene(name, options.scenes);
+    Scene scene = load_scene(name, options.scenes);
     SceneReport report = describe(scene, name);
     if (earlier.scene && earlier.scene->hash != report.hash) {
       throw fail(ErrorKind::scene,

@@ -15,6 +15,8 @@ class VisibilityTracer {
  public:
   VisibilityTracer(const Tracer& tracer, WallTime* wall) : tracer_(tracer), wall_(wall) {}
 
+  // After the scene has moved.
+  void forget() { receivers_.clear(); }
   // Bits as ExactVisibility asks for them. Throws Error(case_failed) for a light that stands nowhere: a
   // position that is not finite, or far outside of the scene.
   std::vector<uint32_t> trace(const Frame& frame, const std::vector<LightPoint>& lights);

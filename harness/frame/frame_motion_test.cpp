@@ -1,0 +1,170 @@
+// A frame that follows its scene gives what a new one of the same pose does.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <numeric>
+
+#include "base/file.h"
+#include "frame/frame.h"
+#include "method/registry.h"
+#include "scene/animation.h"
+#include "scene/scene_file.h"
+
+namespace vsglbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Two rings, one of which stands from frame 2 on; camera and light move in the first half.
+constexpr const char* kEverythingMoves = R"({
+  "name": "moving", "description": "a room with two rings",
+  "geometry": {"builder": "cornell"},
+  "animation": {"frames": 6, "rate": 5},
+  "objects": [
+    {"name": "ring", "torus": {"major": 0.3, "minor": 0.1}, "interpolation": "linear",
+     "material": {"base_color": [0.9, 0.4, 0.1], "roughness": 0.3, "metallic": 0.5},
+     "keys": [{"time": 0, "translation": [0, 1, 0], "rotation": [0, 0, 0, 1]},
+              {"time": 0.8, "translation": [0.5, 1, 0], "rotation": [0.6, 0, 0, 0.8]}]},
+    {"name": "low", "torus": {"major": 0.2, "minor": 0.05}, "interpolation": "linear",
+     "keys": [{"time": 0, "translation": [-0.4, 0.5, 0.3]}, {"time": 0.4, "translation": [-0.4, 0.8, 0.3]}]}],
+  "views": {"A": {
+    "camera": {"eye": [0, 1, 3], "direction": [0, 0, -1], "vfov": 50,
+               "keys": [{"time": 0, "eye": [0, 1, 3]}, {"time": 0.6, "eye": [0.1, 1, 3]}]},
+    "light": {"spot": {"position": [0.3, 1.9, 0.4], "target": [0, 0, 0], "fov": 70, "intensity": 10,
+              "keys": [{"time": 0, "intensity": 10}, {"time": 0.6, "intensity": 20}]}}}},
+  "default_view": "A"
+})";
+
+Device& device() {
+  static Device d;
+  return d;
+}
+
+Scene everything_moves() {
+  const fs::path file =
+      fs::temp_directory_path() / fmt::format("vsglbench_frame_motion_{}", ::getpid()) / "scene.json";
+  fs::create_directories(file.parent_path());
+  write_text(file, kEverythingMoves);
+  Scene scene = load_scene(file.string(), {data_root() / "scenes", {}});
+  fs::remove_all(file.parent_path());
+  return scene;
+}
+
+struct Session {
+  explicit Session(const Scene& s) : kernels(device()), stage(device(), kernels, s) {}
+  std::unique_ptr<Frame> frame(const FrameParameters& p) {
+    const MethodInfo& info = load_method("mfis", device().info());
+    const uint64_t pixels = uint64_t(p.width) * p.height;
+    return std::make_unique<Frame>(stage, info, resolve_parameters(info, Json::object()), p,
+                                   [this, pixels](const auto& lights) {
+                                     ++traced;
+                                     return std::vector<uint32_t>(lights.size() * groups_for(pixels, 32), ~0u);
+                                   });
+  }
+  KernelLibrary kernels;
+  Stage stage;
+  unsigned traced = 0;
+};
+
+FrameParameters tiny(Visibility visibility) {
+  return {
+      .width = 32, .height = 18, .rsm = 32, .lights = 32, .importance_lights = 32, .visibility = visibility};
+}
+
+void expect_same_maps(const DeferredTargets& a, const DeferredTargets& b, const std::string& where) {
+  for (size_t i = 0; i < a.maps.size(); ++i) {
+    ASSERT_EQ(bool(a.maps[i]), bool(b.maps[i]));
+    if (!a.maps[i]) continue;
+    EXPECT_TRUE(download_map(a.maps[i]) == download_map(b.maps[i])) << where << ", map " << i;
+  }
+}
+
+// In the order of `frames`, which may go back.
+void follow(Scene scene, const std::vector<uint32_t>& frames, const std::vector<Visibility>& kinds) {
+  Session session(scene);
+  std::vector<std::unique_ptr<Frame>> followers;
+  for (const Visibility kind : kinds) followers.push_back(session.frame(tiny(kind)));
+  for (const uint32_t t : frames) {
+    const Moved moved = set_frame(&scene, t);
+    session.stage.follow(moved);
+    Session fresh(scene);
+    for (size_t i = 0; i < kinds.size(); ++i) {
+      const std::string where = fmt::format("frame {}, {}", t, visibility_name(kinds[i]));
+      Frame& follower = *followers[i];
+      follower.follow(moved);
+      auto anew = fresh.frame(tiny(kinds[i]));
+      follower.render(1);
+      anew->render(1);
+      expect_same_maps(follower.gbuffer(), anew->gbuffer(), where + ", gbuffer");
+      expect_same_maps(follower.rsm(), anew->rsm(), where + ", rsm");
+      EXPECT_TRUE(follower.results().indirect().pixels == anew->results().indirect().pixels) << where;
+    }
+  }
+}
+
+TEST(FrameMotion, AFollowingFrameIsANewOneToTheBit) {
+  follow(everything_moves(), {0, 1, 2, 3, 4, 5, 1, 0},
+         {Visibility::exact, Visibility::none, Visibility::ism, Visibility::aism});
+}
+
+TEST(FrameMotion, OfTheColonnade) {
+  const Scene scene = load_scene("colonnade-dynamic", {data_root() / "scenes", {}});
+  std::vector<uint32_t> frames(frame_count(scene));
+  std::iota(frames.begin(), frames.end(), 0u);
+  follow(scene, frames, {Visibility::exact});
+}
+
+// The test above would pass if nothing moved.
+TEST(FrameMotion, FramesDiffer) {
+  Scene scene = everything_moves();
+  Session session(scene);
+  auto frame = session.frame(tiny(Visibility::none));
+  frame->render(1);
+  Image before = frame->results().indirect();
+  for (const uint32_t t : {1u, 2u, 3u, 4u}) {
+    const Moved moved = set_frame(&scene, t);
+    session.stage.follow(moved);
+    frame->follow(moved);
+    frame->render(1);
+    Image now = frame->results().indirect();
+    EXPECT_FALSE(now.pixels == before.pixels) << t;
+    before = std::move(now);
+  }
+}
+
+TEST(FrameMotion, OnlyWhatMovedIsUploaded) {
+  Scene scene = everything_moves();
+  Session session(scene);
+  const auto bytes_of = [&](size_t object) {
+    const MovingObject& o = scene.animation.objects.at(object);
+    return o.vertex_count * sizeof(gpu::Vertex) + o.triangle_count * sizeof(glm::vec4);
+  };
+  const auto uploaded = [&](uint32_t t) { return session.stage.follow(set_frame(&scene, t)); };
+  EXPECT_EQ(uploaded(0), 0u);
+  EXPECT_EQ(uploaded(1), bytes_of(0) + bytes_of(1));
+  EXPECT_EQ(uploaded(1), 0u);
+  uploaded(2);
+  EXPECT_EQ(uploaded(3), bytes_of(0));  // the low ring has come to rest
+  uploaded(4);
+  EXPECT_EQ(uploaded(5), 0u);  // as all have
+}
+
+// Shadow rays of a pose do not stand for the next, though its lights be where they were.
+TEST(FrameMotion, RaysAreTracedAgain) {
+  Scene scene = everything_moves();
+  Session session(scene);
+  auto frame = session.frame(tiny(Visibility::exact));
+  frame->render(1);
+  frame->render(1);
+  EXPECT_EQ(session.traced, 1u);
+  frame->follow({});
+  frame->render(1);
+  EXPECT_EQ(session.traced, 1u);
+  frame->follow({.objects = {0}});
+  frame->render(1);
+  EXPECT_EQ(session.traced, 2u);
+}
+
+}  // namespace
+}  // namespace vsglbench

@@ -1,0 +1,47 @@
+// The pictures of a case in motion: its frames and its references' as EXR, and what is drawn from them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "image/flicker.h"
+#include "run/case_run.h"
+
+namespace vsglbench {
+
+// Frame "0003.exr" of such a folder, with its coverage and the animation's frames a second. Throws
+// Error(output).
+struct MotionFrame {
+  Image image;
+  Mask mask;
+  double rate = 0;
+};
+MotionFrame read_motion_frame(const std::filesystem::path& folder, uint32_t frame);
+
+class MotionImages {
+ public:
+  // Of the animation's `rate` frames a second.
+  MotionImages(std::filesystem::path out, double rate) : out_(std::move(out)), rate_(rate) {}
+
+  // One frame of seed 0, and of its reference. Throws Error(output).
+  void write(const Case& c, uint32_t frame, const CaseRun::Look& look) const;
+  void write(const Case& c, uint32_t frame, const ReferenceResult& reference) const;
+
+  // Draws, from the frames on the disk, the animated picture of the crop that flickers most beside the
+  // reference ("flicker") and the row through its middle over time ("profile"); their paths, and the frames'
+  // folder ("frames") and their references' ("reference_frames"). Throws Error(output), Error(case_failed).
+  std::map<std::string, std::string> draw(const Case& c, const DerivativeFlickerMeter& meter,
+                                          float exposure) const;
+
+ private:
+  std::filesystem::path out_;
+  double rate_;
+};
+
+// Where the frames of a case lie, relative to the report's folder; of its references, those of every case with
+// the same size and occlusion.
+std::string frames_folder(const Case& c);
+std::string reference_frames_folder(const Case& c);
+
+}  // namespace vsglbench

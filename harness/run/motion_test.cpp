@@ -1,0 +1,178 @@
+// Flicker of scenes in motion, from the config to the report.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <numeric>
+#include <set>
+
+#include "image/flicker.h"
+#include "image/png.h"
+#include "run/frame_export.h"
+#include "run/motion_fixture.h"
+#include "run/motion_images.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+using MotionTest = MotionFixture;
+
+TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
+  use(ring_scene(5));
+  config_["seeds"] = 3;
+  const std::vector<CaseResult> cases = run();
+  ASSERT_EQ(cases.size(), 1u);
+  ASSERT_TRUE(cases[0].temporal);
+  const Temporal& t = *cases[0].temporal;
+  EXPECT_EQ(t.frames, 5u);
+  EXPECT_EQ(t.seeds, 2u);
+  EXPECT_EQ(std::set<std::string>(t.references.begin(), t.references.end()).size(), 5u);
+  ASSERT_EQ(t.derivative.series.size(), 4u);
+  EXPECT_GT(t.derivative.value, 0);
+  EXPECT_GE(t.derivative.p99, t.derivative.value);
+  EXPECT_NEAR(t.derivative.value, std::accumulate(t.derivative.series.begin(), t.derivative.series.end(), 0.0) / 4,
+              0.05 * t.derivative.value);  // but for the number of pixels in each
+  EXPECT_EQ(t.derivative.series.at(t.derivative.worst_frame - 1),
+            *std::ranges::max_element(t.derivative.series));
+  ASSERT_TRUE(t.derivative.ci95);
+  EXPECT_TRUE(t.derivative.ci95->contains(t.derivative.value));
+  EXPECT_EQ(t.derivative.formula, "flicker-derivative-mean-reference");
+  ASSERT_TRUE(t.still);
+  EXPECT_EQ(t.still->series.size(), 3u);
+  EXPECT_GT(t.still->value, 0);
+  ASSERT_TRUE(t.detail);
+  for (const char* picture : {"flicker", "profile"}) {
+    const Bitmap drawn = read_png(out_ / cases[0].images.at(picture));
+    EXPECT_GT(drawn.width, 64u) << picture;
+  }
+  for (const char* folder : {"frames", "reference_frames"})
+    EXPECT_TRUE(fs::exists(out_ / cases[0].images.at(folder) / "0004.exr")) << folder;
+}
+
+TEST_F(MotionTest, FramesAreExported) {
+  use(ring_scene(3));
+  const CaseResult c = run().at(0);
+  const fs::path to = folder_ / "exported";
+  const ExportedFrames done = export_frames(out_, c, 2, to, "standard_4k");
+  EXPECT_EQ(done.frames, 3u);
+  EXPECT_EQ(done.rate, 4);
+  EXPECT_EQ(done.peak, 0.5f);
+  for (const char* side : {"test", "reference"})
+    for (const char* file : {"0000.png", "0002.png", "0000.exr", "0002.exr"})
+      EXPECT_TRUE(fs::exists(to / side / file)) << side << file;
+  EXPECT_EQ(read_text(to / "test" / "0001.exr"), read_text(out_ / c.images.at("frames") / "0001.exr"));
+  EXPECT_TRUE(contains(done.command, "--fps 4 --display standard_4k"));
+  config_.erase("motion");
+  EXPECT_THROW(export_frames(out_, run().at(0), 2, to, "standard_4k"), Error);
+}
+
+// The frames on the disk are those that were measured; a flicker that is planted in one of them is found
+// there and in the next, which goes back, and nowhere else.
+TEST_F(MotionTest, APlantedFlickerIsFoundInItsFrame) {
+  for (const bool moves : {true, false}) {
+    use(ring_scene(6, moves));
+    config_["motion"]["seeds"] = 1;
+    const CaseResult c = run().at(0);
+    const auto flicker = [&](float planted) {
+      DerivativeFlickerMeter meter;
+      for (uint32_t t = 0; t < 6; ++t) {
+        MotionFrame x = read_motion_frame(out_ / c.images.at("frames"), t);
+        if (t == 3)
+          for (glm::vec3& p : x.image.pixels) p *= planted;
+        meter.add(x.image, read_motion_frame(out_ / c.images.at("reference_frames"), t).image, x.mask);
+      }
+      return meter.finish().value();
+    };
+    const DerivativeFlicker as_it_was = flicker(1), planted = flicker(1.2f);
+    EXPECT_EQ(as_it_was.series, c.temporal->derivative.series);
+    for (const size_t i : {0u, 1u, 4u}) EXPECT_EQ(planted.series[i], as_it_was.series[i]);
+    for (const size_t i : {2u, 3u}) EXPECT_NE(planted.series[i], as_it_was.series[i]);
+    if (moves) continue;
+    EXPECT_EQ(planted.series[2], planted.series[3]);
+    EXPECT_GT(planted.series[2], 0.05);
+    EXPECT_EQ(planted.worst_frame, 3u);
+  }
+}
+
+TEST_F(MotionTest, WhatHangsStillDoesNotFlicker) {
+  use(ring_scene(4, false));
+  config_["motion"]["frames"] = 3;
+  const Temporal t = run().at(0).temporal.value();
+  EXPECT_EQ(t.derivative.value, 0);
+  EXPECT_EQ(t.derivative.p99, 0);
+  EXPECT_EQ(t.derivative.series, std::vector<double>(2, 0.0));
+  EXPECT_EQ(t.references, std::vector<std::string>(3, t.references.front()));
+  ASSERT_TRUE(t.still);
+  EXPECT_GT(t.still->value, 0);
+}
+
+// A lattice that is shifted shimmers, though nothing moves.
+TEST_F(MotionTest, AShiftedLatticeFlickers) {
+  use(ring_scene(3, false));
+  config_["methods"][0]["lattice"] = {"fixed", "shifted"};
+  const std::vector<CaseResult> cases = run();
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_TRUE(contains(cases[1].id, "lattice=shifted"));
+  EXPECT_EQ(cases[0].temporal->derivative.value, 0);
+  EXPECT_GT(cases[1].temporal->derivative.value, 0.01);
+  EXPECT_EQ(cases[0].temporal->still->value, cases[1].temporal->still->value);
+}
+
+// What is timed afterwards, and compared, is frame 0.
+TEST_F(MotionTest, ErrorsAreThoseOfTheFirstFrame) {
+  use(ring_scene(4));
+  const CaseResult moving = run().at(0);
+  config_.erase("motion");
+  const CaseResult first = run().at(0);
+  EXPECT_FALSE(first.temporal);
+  EXPECT_EQ(part_to_json(moving)["accuracy"], part_to_json(first)["accuracy"]);
+}
+
+TEST_F(MotionTest, OfAStillSceneThereIsAWarning) {
+  config_["methods"] = {{{"method", "mfis"}}};
+  ::testing::internal::CaptureStderr();
+  EXPECT_FALSE(run().at(0).temporal);
+  EXPECT_TRUE(contains(::testing::internal::GetCapturedStderr(), "cornell: stands still: no flicker is measured"));
+}
+
+TEST_F(MotionTest, WithoutOcclusionTheReferencesAreOthers) {
+  use(ring_scene(3));
+  config_["visibility"] = {"exact", "none"};
+  const std::vector<CaseResult> cases = run();
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_NE(cases[0].temporal->references, cases[1].temporal->references);
+  EXPECT_NE(cases[0].images.at("reference_frames"), cases[1].images.at("reference_frames"));
+}
+
+// Killed while it times, a run has its flicker; killed amid the frames, it measures them again.
+TEST_F(MotionTest, AKilledRunGoesOn) {
+  use(ring_scene(3));
+  const Json whole = part_to_json(run().at(0))["temporal"];
+  const auto killed_at = [&](const std::string& action) {
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      RunOptions o = options();
+      o.force = true;
+      o.sabotage = [parent = ::getpid(), action](const Activity& a) {
+        if (a.action == action) ::kill(parent, SIGKILL);
+      };
+      ::_exit(run_config(o).exit_code);
+    }
+    int status = 0;
+    ::waitpid(pid, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status)) << action;
+    std::set<std::string> actions;
+    return status;
+  };
+  killed_at("frame 2");
+  EXPECT_TRUE(contains(read_text(out_ / "report.journal"), "temporal"));
+  EXPECT_EQ(part_to_json(run().at(0))["temporal"], whole);
+  killed_at("frame 1 in motion, seed 0");
+  EXPECT_FALSE(read_text(out_ / "report.journal").find("temporal") != std::string::npos);
+  EXPECT_EQ(part_to_json(run().at(0))["temporal"], whole);
+}
+
+}  // namespace
+}  // namespace vsglbench
