@@ -43,25 +43,34 @@ void Frame::restart() {
   if (check_) check_->restart();
 }
 
-FrameTimes Frame::render(uint32_t seed, bool watched) {
+FrameTimes Frame::render(uint32_t seed, bool watched) { return render(seed, Mode{.watched = watched}); }
+
+FrameTimes Frame::render_in_motion(uint32_t seed, Carried* carried) {
+  if (carried) carried->resize(parts_.parameters.progressive);
+  return render(seed, Mode{.watched = true, .carried = carried});
+}
+
+FrameTimes Frame::render(uint32_t seed, const Mode& mode) {
   FrameTimes times;
   restart();
-  for (uint32_t i = 0; i < parts_.parameters.progressive; ++i) render_iteration(seed, i, watched, &times);
+  for (uint32_t i = 0; i < parts_.parameters.progressive; ++i) render_iteration(seed, i, mode, &times);
   return times;
 }
 
-void Frame::render_iteration(uint32_t seed, uint32_t iteration, bool watched, FrameTimes* times) {
+void Frame::render_iteration(uint32_t seed, uint32_t iteration, const Mode& mode, FrameTimes* times) {
   const bool traced = parts_.parameters.visibility == Visibility::exact;
+  const bool watched = mode.watched;
   const glm::uvec2 shift = iteration_shift(seed, iteration);
-  if (watched) watch_.arm();
+  CarriedLights* carried = mode.carried ? &mode.carried->at(iteration) : nullptr;
+  if (watched) watch_.arm(carried);
   recorder_.begin();
   // 1. What eye and light see.
   if (iteration == 0) parts_.halves.draw(recorder_);
   // 2. Which texels of the RSM matter to the eye.
-  if (parts_.importance) times->generate_dispatches += parts_.importance->record(recorder_, shift);
+  if (parts_.importance) times->generate_dispatches += parts_.importance->record(recorder_, shift, carried);
   // 3. Lights drawn from them.
   const Buffer* pdf = parts_.importance ? &parts_.importance->pdf(Half::rsm) : nullptr;
-  times->generate_dispatches += parts_.lights.generate(recorder_, pdf, shift);
+  times->generate_dispatches += parts_.lights.generate(recorder_, pdf, shift, carried);
   // 4. Which pixels see them: by the host, between two submissions, whose time is not the frame's; or by
   // shadow maps, as passes of 5.
   if (traced) {

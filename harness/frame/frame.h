@@ -29,6 +29,9 @@ class Frame {
   // Renders with the lattice shift of `seed`. Waits for the device. `watched`: with memory_fault(), and not
   // to be timed against a frame that is not.
   FrameTimes render(uint32_t seed, bool watched = false);
+  // A frame of an animation, watched. `carried`: what this seed's frame before left there, and the next is to
+  // be given; null: nothing is carried.
+  FrameTimes render_in_motion(uint32_t seed, Carried* carried);
 
   // Takes over what set_frame() moved, after Stage::follow(): every frame then gives the bits of a new one of
   // the same pose. KeptPdfs stay those of the pose that they were made in.
@@ -67,8 +70,13 @@ class Frame {
   const gpu::Emitter& light() const { return parts_.halves.emitter(Half::rsm); }
 
  private:
+  struct Mode {
+    bool watched = false;
+    Carried* carried = nullptr;
+  };
+  FrameTimes render(uint32_t seed, const Mode& mode);
   // One set of lights and its share of the image. Iteration 0 draws the halves, too.
-  void render_iteration(uint32_t seed, uint32_t iteration, bool watched, FrameTimes* times);
+  void render_iteration(uint32_t seed, uint32_t iteration, const Mode& mode, FrameTimes* times);
   void restart();
 
   FrameParts parts_;

@@ -53,14 +53,15 @@ Scene everything_moves() {
 
 struct Session {
   explicit Session(const Scene& s) : kernels(device()), stage(device(), kernels, s) {}
-  std::unique_ptr<Frame> frame(const FrameParameters& p) {
-    const MethodInfo& info = load_method("mfis", device().info());
+  std::unique_ptr<Frame> frame(const FrameParameters& p, const std::string& method = "mfis",
+                               const Json& parameters = Json::object()) {
+    const MethodInfo& info = load_method(method, device().info());
     const uint64_t pixels = uint64_t(p.width) * p.height;
-    return std::make_unique<Frame>(stage, info, resolve_parameters(info, Json::object()), p,
-                                   [this, pixels](const auto& lights) {
-                                     ++traced;
-                                     return std::vector<uint32_t>(lights.size() * groups_for(pixels, 32), ~0u);
-                                   });
+    return std::make_unique<Frame>(
+        stage, info, resolve_parameters(info, parameters), p, [this, pixels](const auto& lights) {
+          ++traced;
+          return std::vector<uint32_t>(lights.size() * groups_for(pixels, 32), ~0u);
+        });
   }
   KernelLibrary kernels;
   Stage stage;
@@ -164,6 +165,40 @@ TEST(FrameMotion, RaysAreTracedAgain) {
   frame->follow({.objects = {0}});
   frame->render(1);
   EXPECT_EQ(session.traced, 2u);
+}
+
+// Each seed has chains of its own: in turns they give what each gives alone. Frame 0, and every frame that is
+// given no state, is that of chains that start.
+TEST(FrameMotion, ChainsAreCarriedOverSeedBySeed) {
+  FrameParameters p = tiny(Visibility::none);
+  p.progressive = 2;
+  const auto frames_of = [&](const std::vector<uint32_t>& seeds, const char* chains) {
+    Scene scene = everything_moves();
+    Session session(scene);
+    auto frame = session.frame(p, "mfis-mh", {{"steps", 2}, {"chains", chains}});
+    std::map<uint32_t, Carried> carried;
+    std::map<uint32_t, std::vector<std::vector<glm::vec3>>> images;
+    for (uint32_t t = 0; t < 4; ++t) {
+      const Moved moved = set_frame(&scene, t);
+      session.stage.follow(moved);
+      frame->follow(moved);
+      for (const uint32_t seed : seeds) {
+        frame->render_in_motion(seed, &carried[seed]);
+        EXPECT_EQ(frame->memory_fault(), "");
+        images[seed].push_back(frame->results().indirect().pixels);
+      }
+    }
+    frame->render(seeds.front());
+    images[seeds.front()].push_back(frame->results().indirect().pixels);
+    return images;
+  };
+  auto both = frames_of({1, 2}, "carried"), second = frames_of({2}, "carried"),
+       fresh = frames_of({1, 2}, "fresh");
+  EXPECT_EQ(both[2], std::vector(second[2].begin(), second[2].begin() + 4));
+  EXPECT_EQ(both[1][0], fresh[1][0]);
+  EXPECT_EQ(both[2][0], fresh[2][0]);
+  EXPECT_NE(both[1][1], fresh[1][1]);
+  EXPECT_EQ(both[1][4], fresh[1][4]) << "a frame that is not of the animation";
 }
 
 }  // namespace

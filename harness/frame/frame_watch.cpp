@@ -64,10 +64,14 @@ FrameOutputs::HalfSize size_of(const FrameParts& parts, const PassId& pass) {
 }  // namespace
 
 // What a kernel of the method can reach: both halves' lights, the method's own scratch memory and the PDFs.
-void FrameWatch::arm() {
+void FrameWatch::arm(const CarriedLights* carried) {
   if (parts_.importance_lights()) arm_half(Half::gbuffer);
   arm_half(Half::rsm);
   arm_scratch();
+  for (const Half half : {Half::gbuffer, Half::rsm}) {
+    const Buffer* state = carried ? carried->buffer(half) : nullptr;
+    if (state) memory_.arm(fmt::format("carried.{}", half_name(half)), *state, state->size(), false);
+  }
 }
 
 void FrameWatch::arm_half(Half half) {

@@ -14,7 +14,8 @@ class FrameWatch {
  public:
   explicit FrameWatch(const FrameParts& parts) : parts_(parts) {}
   void restart() { fault_.clear(); }
-  void arm();
+  // `carried`: null where this is no frame of an animation.
+  void arm(const CarriedLights* carried = nullptr);
   void look();
   // Which lights no kernel wrote, and what was written past the end of a buffer that the method may write;
   // empty: nothing. The first fault since restart() stays.

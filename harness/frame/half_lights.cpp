@@ -19,10 +19,14 @@ HalfLights::HalfLights(Stage& stage, const Halves& halves, const LightGenerator&
       half_(half),
       count_(light_count_of(generator.method(), generator.name(), wanted, halves.texels(half))) {}
 
-unsigned HalfLights::generate(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift) const {
+unsigned HalfLights::generate(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift,
+                              CarriedLights* carried) const {
   const unsigned before = recorder.dispatches();
   Steps steps(recorder, half_);
-  generator_.method().generate(steps, halves_.field(half_, pdf), {&buffer(), count_, shift});
+  Method& method = generator_.method();
+  CarriedState state;
+  if (carried) state = carried->next(stage_.device, half_, method.carried_bytes(count_));
+  method.generate(steps, halves_.field(half_, pdf), {&buffer(), count_, shift, state});
   return recorder.dispatches() - before;
 }
 

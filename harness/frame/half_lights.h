@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "frame/carried.h"
 #include "frame/halves.h"
 #include "frame/light_records.h"
 #include "frame/permutation.h"
@@ -34,8 +35,9 @@ class HalfLights {
   // As many as the generator makes when asked for `wanted`.
   HalfLights(Stage& stage, const Halves& halves, const LightGenerator& generator, Half half, uint32_t wanted);
   // Records the passes generate.HALF.*; returns their dispatches. `pdf` may be null where the method uses
-  // none.
-  unsigned generate(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift) const;
+  // none, and `carried` where this is no frame of an animation.
+  unsigned generate(Recorder& recorder, const Buffer* pdf, glm::uvec2 shift,
+                    CarriedLights* carried = nullptr) const;
 
   const LightGenerator& generator() const { return generator_; }
   Half half() const { return half_; }

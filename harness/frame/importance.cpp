@@ -66,7 +66,7 @@ std::vector<float> ImportancePass::read(Half half) const {
   return pdf(half).download<float>(halves_.texels(half));
 }
 
-unsigned ImportancePass::record(Recorder& r, glm::uvec2 shift) {
+unsigned ImportancePass::record(Recorder& r, glm::uvec2 shift, CarriedLights* carried) {
   drawn_from_own_ = true;
   if (!lights_) {
     r.pass({PassStage::importance, Half::rsm, ""}, [&] { draw_reflectance(r, Half::rsm); });
@@ -75,7 +75,7 @@ unsigned ImportancePass::record(Recorder& r, glm::uvec2 shift) {
   // 1. The eye's PDF on the G-buffer: reflectance.
   r.pass({PassStage::importance, Half::gbuffer, ""}, [&] { draw_reflectance(r, Half::gbuffer); });
   // 2. Lights on the G-buffer.
-  const unsigned dispatches = lights_->generate(r, &pdf(Half::gbuffer), shift);
+  const unsigned dispatches = lights_->generate(r, &pdf(Half::gbuffer), shift, carried);
   // 3. What they are worth at every RSM texel.
   r.pass({PassStage::importance, Half::rsm, ""}, [&] { gather(r); });
   return dispatches;

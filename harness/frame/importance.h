@@ -25,8 +25,8 @@ class ImportancePass {
                  const FrameParameters& parameters);
 
   // Both PDFs: passes importance.gbuffer, generate.gbuffer.* and importance.rsm. Returns the dispatches of
-  // generation.
-  unsigned record(Recorder& recorder, glm::uvec2 shift);
+  // generation. `carried`: null where this is no frame of an animation.
+  unsigned record(Recorder& recorder, glm::uvec2 shift, CarriedLights* carried = nullptr);
   // The lights on the G-buffer alone, on kept PDFs.
   unsigned generate(Recorder& recorder, const KeptPdfs& pdfs, glm::uvec2 shift);
   KeptPdfs keep() const;

@@ -61,46 +61,68 @@ namespace {
 class FilteredSampling : public Method {
  public:
   FilteredSampling(MethodContext& context, const std::string& file, float footprint_size,
-                   const ShaderDefines& defines)
+                   const ShaderDefines& defines, size_t carried_bytes)
       : context_(context),
+        file_(file),
+        defines_(defines),
         pyramid_(context),
         sample_(context.kernel(file, defines)),
-        footprint_size_(footprint_size) {}
+        footprint_size_(footprint_size),
+        carried_bytes_(carried_bytes) {}
 
   LightKind kind() const override { return LightKind::vsgl; }
 
   void generate(Steps& steps, const Field& field, const LightTarget& target) override {
     const MomentBuffers moments = pyramid_.build(steps, field);
     steps.pass("sample", [&] {
-      const struct {
-        uint32_t width, height, count, step;
-        glm::uvec2 shift;
-        float footprint_size;
-      } push{field.emitter.width,        field.emitter.height, target.count,
-             lattice_step(target.count), target.shift,         footprint_size_};
+      const Push push{field.emitter.width,        field.emitter.height, target.count,
+                      lattice_step(target.count), target.shift,         footprint_size_};
       Buffer& squares = context_.scratch(fmt::format("squares.{}", half_name(field.half)),
                                          target.count * sizeof(glm::vec4));
       squares_[field.half] = &squares;
-      steps.recorder().dispatch(sample_, {*field.pdf, moments, *target.buffer, squares}, push,
-                                groups_for(target.count, 64));
+      Recorder& r = steps.recorder();
+      const uint32_t groups = groups_for(target.count, 64);
+      if (!target.carried.buffer)
+        return r.dispatch(sample_, {*field.pdf, moments, *target.buffer, squares}, push, groups);
+      const struct {
+        Push push;
+        uint32_t frame;
+      } carried{push, target.carried.frame};
+      r.dispatch(carrying(), {*field.pdf, moments, *target.buffer, squares, *target.carried.buffer}, carried,
+                 groups);
     });
   }
 
   LightShapes shapes(Half half) override { return {.squares = squares_[half]}; }
+  size_t carried_bytes(uint32_t lights) const override { return carried_bytes_ * lights; }
 
  private:
+  struct Push {
+    uint32_t width, height, count, step;
+    glm::uvec2 shift;
+    float footprint_size;
+  };
+  const Kernel& carrying() {
+    ShaderDefines defines = defines_;
+    defines.emplace("CARRIED", "1");
+    return context_.kernel(file_, defines);
+  }
   MethodContext& context_;
+  const std::string file_;
+  const ShaderDefines defines_;
   std::map<Half, const Buffer*> squares_;
   MomentPyramid pyramid_;
   const Kernel& sample_;
   float footprint_size_;
+  size_t carried_bytes_;  // of a light
 };
 
 }  // namespace
 
 std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
-                                               float footprint_size, const ShaderDefines& defines) {
-  return std::make_unique<FilteredSampling>(context, kernel_file, footprint_size, defines);
+                                               float footprint_size, const ShaderDefines& defines,
+                                               size_t carried_bytes) {
+  return std::make_unique<FilteredSampling>(context, kernel_file, footprint_size, defines, carried_bytes);
 }
 
 }  // namespace vsglbench

@@ -33,8 +33,10 @@ class MomentPyramid {
 };
 
 // A method whose kernel file includes filtered_sampling.glsl; `footprint_size` is K. `defines`: of that file.
+// `carried_bytes`: of each light's state, where the kernel carries one from frame to frame (CARRIED there).
 std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,
-                                               float footprint_size, const ShaderDefines& defines = {});
+                                               float footprint_size, const ShaderDefines& defines = {},
+                                               size_t carried_bytes = 0);
 
 // Texels of a whole pyramid over width × height (shaders/pyramid.glsl).
 uint64_t pyramid_texels(uint32_t width, uint32_t height);

@@ -47,11 +47,21 @@ struct Field {
   uint64_t texels() const { return uint64_t(emitter.width) * emitter.height; }
 };
 
+// What a method carries over from one frame of an animation to the next of the same seed. The harness keeps
+// it: a frame by itself must be repeatable.
+struct CarriedState {
+  // Method::carried_bytes(), in frame 0 all zeros, then as the frame before left it. Null: a frame by itself,
+  // which every one is that is timed or compared with a reference.
+  const Buffer* buffer = nullptr;
+  uint32_t frame = 0;  // how many frames have had it before
+};
+
 // Where the lights go: `count` records of the kind that the method makes. A light of no power has power = 0.
 struct LightTarget {
   const Buffer* buffer = nullptr;
   uint32_t count = 0;
   glm::uvec2 shift{0};  // Cranley-Patterson shift of this seed, 32-bit fixed point
+  CarriedState carried{};
 };
 
 // Names the passes of one half `generate.<half>.<step>`. A step of a name that no report takes, and one
@@ -106,6 +116,8 @@ class Method {
   virtual void generate(Steps& steps, const Field& field, const LightTarget& target) = 0;
   // The shapes of the last generate() of that half, once the device has finished it.
   virtual LightShapes shapes(Half) { return {}; }
+  // Of the state that it carries over from frame to frame for so many lights of a half; 0: it carries none.
+  virtual size_t carried_bytes(uint32_t /*lights*/) const { return 0; }
 };
 
 // A parameter of one method, beyond those every case has.

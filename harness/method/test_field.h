@@ -30,12 +30,13 @@ class MethodBench {
         method_(info_.create(context_, resolve_parameters(info_, parameters))) {}
 
   template <class Light>
-  std::vector<Light> lights(const oracle::Half& half, uint32_t count, glm::uvec2 shift = {0, 0}) {
+  std::vector<Light> lights(const oracle::Half& half, uint32_t count, glm::uvec2 shift = {0, 0},
+                            const CarriedState& carried = {}) {
     const DeviceHalf on_device(test_device(), half);
     Buffer out(test_device(), "lights", count * sizeof(Light));
     recorder_.begin();
     Steps steps(recorder_, Half::rsm);
-    method_->generate(steps, on_device.field(Half::rsm), {&out, count, shift});
+    method_->generate(steps, on_device.field(Half::rsm), {&out, count, shift, carried});
     recorder_.submit_and_wait();
     return out.download<Light>(count);
   }

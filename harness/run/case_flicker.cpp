@@ -26,7 +26,8 @@ std::optional<CaseRun::Look> CaseFlicker::look(uint32_t frame, const ReferenceRe
   std::optional<CaseRun::Look> first;
   std::vector<Image> frozen;
   for (uint32_t seed = 0; seed < wanted; ++seed) {
-    auto look = run_.look_in_motion(frame, seed, reference);
+    Carried* carried = seed < seeds_.size() ? &seeds_[seed].carried : nullptr;
+    auto look = run_.look_in_motion(frame, seed, reference, carried);
     if (!look) return std::nullopt;
     if (seed < seeds_.size()) {
       seeds_[seed].flicker.add(look->image, reference.mean, look->mask);

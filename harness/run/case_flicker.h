@@ -29,6 +29,7 @@ class CaseFlicker {
   struct Seed {
     DerivativeFlickerMeter flicker;
     DetailMeter detail;
+    Carried carried;
   };
   void look_at_frozen(const std::vector<Image>& images, const Mask& mask, const ReferenceResult& reference);
   std::optional<DetailResult> detail() const;

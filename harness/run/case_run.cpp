@@ -111,12 +111,11 @@ uint64_t CaseRun::frames_left() const {
 
 // The first frame compiles kernels: what it takes beyond the device's and the ray tracer's time is
 // compilation.
-FrameTimes CaseRun::render(uint32_t seed, bool watched) {
+template <class Render>
+FrameTimes CaseRun::run_frame(bool watched, const Render& render) {
   const double visibility_before = wall_->visibility_s;
   const Stopwatch watch;
-  FrameTimes times = config_.measure == Measure::generation
-                         ? frame_->generate_only(seed, *input_.pdfs, watched)
-                         : frame_->render(seed, watched);
+  FrameTimes times = render();
   const double device_s = times.span_ms * 1e-3, visibility_s = wall_->visibility_s - visibility_before;
   wall_->device_s += device_s;
   if (visibility_s > 0) rays_ms_.push_back(1e3 * visibility_s);
@@ -129,6 +128,13 @@ FrameTimes CaseRun::render(uint32_t seed, bool watched) {
   return times;
 }
 
+FrameTimes CaseRun::render(uint32_t seed, bool watched) {
+  return run_frame(watched, [&] {
+    return config_.measure == Measure::generation ? frame_->generate_only(seed, *input_.pdfs, watched)
+                                                  : frame_->render(seed, watched);
+  });
+}
+
 // Seed 0 is the last, so that the frames that are timed find its shadow rays already traced.
 void CaseRun::look() {
   if (scored_) return;
@@ -138,7 +144,8 @@ void CaseRun::look() {
 void CaseRun::look_at(uint32_t seed) {
   render(seed, true);
   const bool has_image = config_.measure == Measure::frame;
-  if (has_image && !scoring_) scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference));
+  if (has_image && !scoring_)
+    scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference));
   Image image;
   if (has_image) image = frame_->results().indirect();
   if (has_image) check_health_of(image);
@@ -190,11 +197,12 @@ void CaseRun::follow(const Moved& moved) {
 
 // Rays of frames in motion are not those of the frames that are timed.
 std::optional<CaseRun::Look> CaseRun::look_in_motion(uint32_t frame, uint32_t seed,
-                                                     const ReferenceResult& reference) {
+                                                     const ReferenceResult& reference, Carried* carried) {
   std::optional<Look> look;
   attempt(fmt::format("frame {} in motion, seed {}", frame, seed), [&] {
     const size_t rays = rays_ms_.size();
-    render(seed_in_frame(seed, frame, case_.frame.lattice), true);
+    const uint32_t own = seed_in_frame(seed, frame, case_.frame.lattice);
+    run_frame(true, [&] { return frame_->render_in_motion(own, carried); });
     rays_ms_.resize(rays);
     Image image = frame_->results().indirect();
     if (!check_health(image).finite()) check_health_of(image);

@@ -50,13 +50,15 @@ class CaseRun {
   }
   // Takes over what set_frame() moved, after Stage::follow().
   void follow(const Moved& moved);
-  // A frame of the scene's pose, checked as those of look(), with `reference`, of that pose; nothing where the
-  // case fails.
+  // A frame of the scene's pose, checked as those of look(), with `reference`, of that pose; nothing where
+  // the case fails.
   struct Look {
     Image image;
     Mask mask;  // as mask()
   };
-  std::optional<Look> look_in_motion(uint32_t frame, uint32_t seed, const ReferenceResult& reference);
+  // `carried`: as Frame::render_in_motion().
+  std::optional<Look> look_in_motion(uint32_t frame, uint32_t seed, const ReferenceResult& reference,
+                                     Carried* carried);
   bool has_temporal() const { return result_.temporal.has_value(); }
   void add_temporal(Temporal temporal) { result_.temporal = std::move(temporal); }
   uint32_t seeds() const;  // to be looked at
@@ -100,6 +102,8 @@ class CaseRun {
   void attempt(const std::string& name, const Action& action);
   void announce(bool limited) const;
   FrameTimes render(uint32_t seed, bool watched = false);
+  template <class Render>
+  FrameTimes run_frame(bool watched, const Render& render);
   void look_at(uint32_t seed);
   Mask make_mask(const ReferenceResult& reference) const;
   void check_health_of(const Image& image);

@@ -12,12 +12,10 @@ using Texels = std::vector<uint32_t>;
 
 // Centres' texels, y·width + x. With footprints of next to no probability each light is its centre's texel,
 // and its mean that texel's position.
-Texels centres(const std::string& method, const oracle::Half& half, uint32_t count,
-               Json parameters = Json::object(), glm::uvec2 shift = {0, 0}) {
-  parameters["K"] = 1e-6;
+Texels centres(const oracle::Half& half, const std::vector<gpu::Vsgl>& lights) {
   const gpu::Emitter& e = half.emitter;
   Texels out;
-  for (const auto& l : MethodBench(method, parameters).lights<gpu::Vsgl>(half, count, shift)) {
+  for (const auto& l : lights) {
     const glm::vec3 d = l.mean - e.position;
     const glm::vec2 plane =
         glm::vec2(glm::dot(d, e.right), glm::dot(d, e.up)) / (glm::dot(d, e.forward) * e.extent);
@@ -28,6 +26,42 @@ Texels centres(const std::string& method, const oracle::Half& half, uint32_t cou
   }
   return out;
 }
+
+Texels centres(const std::string& method, const oracle::Half& half, uint32_t count,
+               Json parameters = Json::object(), glm::uvec2 shift = {0, 0}) {
+  parameters["K"] = 1e-6;
+  return centres(half, MethodBench(method, parameters).lights<gpu::Vsgl>(half, count, shift));
+}
+
+// Chains that are carried over from frame to frame.
+class CarriedChains {
+ public:
+  CarriedChains(uint32_t count, uint32_t steps)
+      : count_(count),
+        bench_("mfis-mh", {{"K", 1e-6}, {"steps", steps}, {"chains", "carried"}}),
+        state_(test_device(), "chains", count * 3 * sizeof(float)) {
+    restart();
+  }
+  void restart() {
+    state_.fill(0, state_.size(), 0);
+    frame_ = 0;
+  }
+  std::vector<gpu::Vsgl> lights(const oracle::Half& half, glm::uvec2 shift = {0, 0}) {
+    return bench_.lights<gpu::Vsgl>(half, count_, shift, {&state_, frame_++});
+  }
+  Texels next(const oracle::Half& half, glm::uvec2 shift = {0, 0}) {
+    return centres(half, lights(half, shift));
+  }
+  Texels after(const oracle::Half& half, uint32_t frames) {
+    for (uint32_t i = 1; i < frames; ++i) next(half);
+    return next(half);
+  }
+
+ private:
+  uint32_t count_, frame_ = 0;
+  MethodBench bench_;
+  Buffer state_;
+};
 
 // χ² of N independent draws against N p, over its degrees of freedom: 1, with a standard deviation of 0.044
 // for the 1024 texels of these tests.
@@ -72,12 +106,15 @@ oracle::Half waved(oracle::Half half, float amplitude) {
   return half;
 }
 
+double share_of_equal(const Texels& a, const Texels& b) {
+  double same = 0;
+  for (size_t i = 0; i < a.size(); ++i) same += a[i] == b[i];
+  return same / static_cast<double>(a.size());
+}
+
 double share_that_stays(const std::string& method, const oracle::Half& half, float amplitude,
                         uint32_t count) {
-  const Texels before = centres(method, half, count), after = centres(method, waved(half, amplitude), count);
-  double same = 0;
-  for (size_t i = 0; i < before.size(); ++i) same += before[i] == after[i];
-  return same / static_cast<double>(count);
+  return share_of_equal(centres(method, half, count), centres(method, waved(half, amplitude), count));
 }
 
 TEST(MfisMh, CentresFollowThePdf) {
@@ -107,6 +144,66 @@ TEST(MfisMh, OfAPdfOfOneTexelEveryCentreIsThere) {
   std::ranges::fill(half.pdf, 0.0f);
   half.pdf[200 * 256 + 77] = 2;
   for (const uint32_t t : centres("mfis-mh", half, 1024, {{"steps", 1}})) EXPECT_EQ(t, 200u * 256 + 77);
+}
+
+TEST(MfisMh, CarriedChainsStartAsFreshOnes) {
+  const oracle::Half half = smooth_half(64, 64), other = peaked_half(64, 100, 0.03f);
+  CarriedChains chains(1024, 16);
+  const Texels fresh = centres("mfis-mh", half, 1024, {{"steps", 16}}, {5, 7});
+  EXPECT_EQ(chains.next(half, {5, 7}), fresh);
+  EXPECT_NE(chains.next(half, {5, 7}), fresh);
+  chains.next(other, {5, 7});
+  chains.restart();
+  EXPECT_EQ(chains.next(half, {5, 7}), fresh);
+  // A frame by itself is none of an animation.
+  EXPECT_EQ(centres("mfis-mh", half, 1024, {{"steps", 16}, {"chains", "carried"}}, {5, 7}), fresh);
+}
+
+// However few steps a frame has: the chain was distributed as p before. Steps with the random numbers of the
+// frame before would climb.
+TEST(MfisMh, CarriedChainsFollowThePdf) {
+  for (const uint32_t steps : {1u, 4u}) {
+    for (const oracle::Half& half : {smooth_half(32, 32), peaked_half(32, 100, 0.03f)}) {
+      const double chains = misfit(half, CarriedChains(kDraws, steps).after(half, 12));
+      EXPECT_LT(chains, kMostMisfit) << steps;
+      EXPECT_GT(chains, 0.8) << steps;
+    }
+  }
+}
+
+TEST(MfisMh, CarriedChainsFollowAPdfThatChanges) {
+  const oracle::Half before = smooth_half(32, 32), now = waved(before, 0.5f);
+  CarriedChains chains(kDraws, 8);
+  EXPECT_GT(misfit(now, chains.next(before)), 2 * kMostMisfit);
+  EXPECT_LT(misfit(now, chains.after(now, 8)), kMostMisfit);
+}
+
+// What fresh chains can't: the more steps they have, the less do they depend on where they start.
+TEST(MfisMh, TheFewerStepsTheMoreCarriedCentresStay) {
+  const oracle::Half half = smooth_half(256, 256);
+  const auto share = [&](uint32_t steps) {
+    CarriedChains chains(1024, steps);
+    const Texels before = chains.after(half, 3);
+    return share_of_equal(before, chains.next(half));
+  };
+  EXPECT_LT(share(64), 0.05);
+  EXPECT_GT(share(1), 4 * share(4));
+}
+
+TEST(MfisMh, CarriedChainsThatLoseThePdfStartAnew) {
+  oracle::Half half = smooth_half(256, 256);
+  CarriedChains chains(1024, 1);
+  std::vector<float> all = half.pdf;
+  std::ranges::fill(half.pdf, 0.0f);
+  chains.lights(half);  // none, and chains without a point
+  half.pdf[200 * 256 + 77] = 2;
+  for (const uint32_t t : chains.after(half, 2)) EXPECT_EQ(t, 200u * 256 + 77);
+  half.pdf = all;
+  chains.restart();
+  chains.after(half, 2);
+  std::ranges::fill(half.pdf, 0.0f);
+  half.pdf[200 * 256 + 77] = 2;
+  for (const uint32_t t : chains.next(half)) EXPECT_EQ(t, 200u * 256 + 77);
 }
 
 }  // namespace

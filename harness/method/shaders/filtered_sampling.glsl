@@ -2,7 +2,8 @@
 //   float footprint_level(Centre c)               the mip level l_i
 //   float footprint_share(Centre c, float level)  the total is this times the filtered mean f̄(x_i, l_i)
 // and, with OWN_CENTRES, uvec2 choose_texel(uint i), the base texel of light i; else a stratified point is
-// warped.
+// warped. With CARRIED, a buffer at binding AFTER_MOMENTS + 2 holds what the frame before left, and `frame`
+// says how many there were.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Pdf { float pdf[]; };
 #define PDF(i) pdf[i]
@@ -19,6 +20,9 @@ layout(push_constant, scalar) uniform Push {
   uint step;   // floor(2^32/N)
   uvec2 shift;
   float footprint_size;  // K
+#ifdef CARRIED
+  uint frame;
+#endif
 };
 
 struct Centre {
