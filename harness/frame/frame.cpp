@@ -47,7 +47,7 @@ FrameTimes Frame::render(uint32_t seed, bool watched) { return render(seed, Mode
 
 FrameTimes Frame::render_in_motion(uint32_t seed, Carried* carried) {
   if (carried) carried->resize(parts_.parameters.progressive);
-  return render(seed, Mode{.watched = true, .carried = carried});
+  return render(seed, Mode{.watched = true, .motion = Halves::Motion::frames, .carried = carried});
 }
 
 FrameTimes Frame::render(uint32_t seed, const Mode& mode) {
@@ -65,7 +65,7 @@ void Frame::render_iteration(uint32_t seed, uint32_t iteration, const Mode& mode
   if (watched) watch_.arm(carried);
   recorder_.begin();
   // 1. What eye and light see.
-  if (iteration == 0) parts_.halves.draw(recorder_);
+  if (iteration == 0) times->triangles = parts_.halves.draw(recorder_, mode.motion);
   // 2. Which texels of the RSM matter to the eye.
   if (parts_.importance) times->generate_dispatches += parts_.importance->record(recorder_, shift, carried);
   // 3. Lights drawn from them.

@@ -17,6 +17,7 @@ struct FrameTimes {
   std::vector<PassTime> passes;    // in order of first appearance, one entry a pass
   double span_ms = 0, sum_ms = 0;  // span: first to last timestamp, summed over submissions
   unsigned generate_dispatches = 0;
+  uint64_t triangles = 0;  // drawn, into both halves
 };
 
 class Frame {
@@ -29,8 +30,8 @@ class Frame {
   // Renders with the lattice shift of `seed`. Waits for the device. `watched`: with memory_fault(), and not
   // to be timed against a frame that is not.
   FrameTimes render(uint32_t seed, bool watched = false);
-  // A frame of an animation, watched. `carried`: what this seed's frame before left there, and the next is to
-  // be given; null: nothing is carried.
+  // A frame of an animation, watched: what stands still is not drawn again. `carried`: what this seed's frame
+  // before left there, and the next is to be given; null: nothing is carried.
   FrameTimes render_in_motion(uint32_t seed, Carried* carried);
 
   // Takes over what set_frame() moved, after Stage::follow(): every frame then gives the bits of a new one of
@@ -72,6 +73,7 @@ class Frame {
  private:
   struct Mode {
     bool watched = false;
+    Halves::Motion motion = Halves::Motion::none;
     Carried* carried = nullptr;
   };
   FrameTimes render(uint32_t seed, const Mode& mode);

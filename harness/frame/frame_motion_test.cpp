@@ -41,14 +41,35 @@ Device& device() {
   return d;
 }
 
-Scene everything_moves() {
+Scene scene_of(const std::string& json) {
   const fs::path file =
       fs::temp_directory_path() / fmt::format("vsglbench_frame_motion_{}", ::getpid()) / "scene.json";
   fs::create_directories(file.parent_path());
-  write_text(file, kEverythingMoves);
+  write_text(file, json);
   Scene scene = load_scene(file.string(), {data_root() / "scenes", {}});
   fs::remove_all(file.parent_path());
   return scene;
+}
+
+Scene everything_moves() { return scene_of(kEverythingMoves); }
+
+// A ring that stands, and one of another colour that passes through its place in frame 2; eye and light
+// stand.
+Scene one_passes_through_another(bool standing_first) {
+  const std::string standing =
+      R"({"name": "standing", "torus": {"major": 0.3, "minor": 0.1}, "interpolation": "linear",
+     "material": {"base_color": [0.1, 0.9, 0.1]}, "keys": [{"time": 0, "translation": [0, 1, 0]}]})";
+  const std::string moving =
+      R"({"name": "moving", "torus": {"major": 0.3, "minor": 0.1}, "interpolation": "linear",
+     "material": {"base_color": [0.9, 0.1, 0.1]},
+     "keys": [{"time": 0, "translation": [-0.4, 1, 0]}, {"time": 0.8, "translation": [0.4, 1, 0]}]})";
+  const std::string objects = standing_first ? standing + "," + moving : moving + "," + standing;
+  return scene_of(R"({"name": "passing", "description": "a ring passes through another",
+    "geometry": {"builder": "cornell"}, "animation": {"frames": 5, "rate": 5}, "objects": [)" +
+                  objects + R"(],
+    "views": {"A": {"camera": {"eye": [0, 1, 3], "direction": [0, 0, -1], "vfov": 50},
+      "light": {"spot": {"position": [0.3, 1.9, 0.4], "target": [0, 0.5, 0], "fov": 70, "intensity": 10}}}},
+    "default_view": "A"})");
 }
 
 struct Session {
@@ -95,7 +116,7 @@ void follow(Scene scene, const std::vector<uint32_t>& frames, const std::vector<
       Frame& follower = *followers[i];
       follower.follow(moved);
       auto anew = fresh.frame(tiny(kinds[i]));
-      follower.render(1);
+      follower.render_in_motion(1, nullptr);
       anew->render(1);
       expect_same_maps(follower.gbuffer(), anew->gbuffer(), where + ", gbuffer");
       expect_same_maps(follower.rsm(), anew->rsm(), where + ", rsm");
@@ -149,6 +170,66 @@ TEST(FrameMotion, OnlyWhatMovedIsUploaded) {
   EXPECT_EQ(uploaded(3), bytes_of(0));  // the low ring has come to rest
   uploaded(4);
   EXPECT_EQ(uploaded(5), 0u);  // as all have
+}
+
+// Of two surfaces at one depth the first object's is seen, and so it is where one of them is drawn
+// beforehand.
+TEST(FrameMotion, WhatIsSeenAtOneDepthDoesNotDependOnWhatIsDrawnBefore) {
+  std::vector<std::vector<glm::vec4>> seen;
+  for (const bool standing_first : {true, false}) {
+    Scene scene = one_passes_through_another(standing_first);
+    ASSERT_EQ(scene.animation.moves.objects, std::vector<uint32_t>{standing_first ? 1u : 0u});
+    follow(scene, {0, 1, 2, 3, 4}, {Visibility::none});
+    set_frame(&scene, 2);
+    Session session(scene);
+    auto frame = session.frame(tiny(Visibility::none));
+    frame->render_in_motion(1, nullptr);
+    seen.push_back(download_map(*frame->gbuffer().field_maps().diffuse));
+  }
+  EXPECT_FALSE(seen[0] == seen[1]) << "they are nowhere at one depth";
+}
+
+// Where only the eye or only the light moves, the other half is never drawn again.
+TEST(FrameMotion, OfEyeAndLightThatMoveAlone) {
+  for (const char* name : {"columns-walk", "ring514-turning"}) {
+    Scene scene = load_scene(name, {data_root() / "scenes", {}});
+    ASSERT_TRUE(scene.animation.moves.objects.empty());
+    ASSERT_NE(scene.animation.moves.camera, scene.animation.moves.light);
+    follow(scene, {0, 1, 2, 0}, {Visibility::none});
+    Session session(scene);
+    EXPECT_EQ(session.frame(tiny(Visibility::none))->render_in_motion(1, nullptr).triangles,
+              scene.triangles.size());
+  }
+}
+
+uint64_t triangles_of(const Scene& scene, const std::vector<uint32_t>& objects) {
+  uint64_t triangles = 0;
+  for (const uint32_t i : objects) triangles += scene.animation.objects.at(i).triangle_count;
+  return triangles;
+}
+
+// With camera and light at rest: two halves of what moves. A timed frame draws all.
+TEST(FrameMotion, WhatStandsStillIsDrawnOnce) {
+  Scene scene = load_scene("colonnade-dynamic", {data_root() / "scenes", {}});
+  const uint64_t moving = triangles_of(scene, scene.animation.moves.objects);
+  ASSERT_GT(moving, 0u);
+  ASSERT_LT(moving, scene.triangles.size() / 2);
+  Session session(scene);
+  auto frame = session.frame(tiny(Visibility::none));
+  for (const uint32_t t : {0u, 1u, 2u}) {
+    const Moved moved = set_frame(&scene, t);
+    session.stage.follow(moved);
+    frame->follow(moved);
+    EXPECT_EQ(frame->render_in_motion(1, nullptr).triangles, 2 * moving) << t;
+    EXPECT_EQ(frame->render(1).triangles, 2 * scene.triangles.size()) << t;
+  }
+}
+
+TEST(FrameMotion, WhatMovesIsDrawnAnewAsAWhole) {
+  Scene scene = everything_moves();
+  Session session(scene);
+  auto frame = session.frame(tiny(Visibility::none));
+  EXPECT_EQ(frame->render_in_motion(1, nullptr).triangles, 2 * scene.triangles.size());
 }
 
 // Shadow rays of a pose do not stand for the next, though its lights be where they were.

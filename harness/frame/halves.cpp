@@ -34,13 +34,26 @@ void Halves::follow(const Moved& moved) {
   if (moved.light) see_light();
 }
 
-void Halves::draw(Recorder& recorder) const {
+bool Halves::moves(Half half) const {
+  const Moved& moves = stage_.scene.animation.moves;
+  return half == Half::gbuffer ? moves.camera : moves.light;
+}
+
+uint64_t Halves::draw(Recorder& recorder, Motion motion) const {
+  uint64_t triangles = 0;
   for (const Half half : {Half::gbuffer, Half::rsm}) {
+    const Seen& seen = of(half);
+    const ShaderDefines defines = raster_permutation(effects_, half);
+    const DeferredTargets* layer = nullptr;
+    if (motion == Motion::frames && !moves(half))
+      layer = &stage_.still_layers.get(half, seen.view, seen.buffer, *seen.targets, defines);
     recorder.pass({PassStage::draw, half, ""}, [&] {
-      stage_.geometry.draw(recorder, of(half).view, of(half).buffer, *of(half).targets,
-                           raster_permutation(effects_, half));
+      if (layer) copy_layer(recorder.commands(), *layer, *seen.targets);
+      triangles += stage_.geometry.draw(recorder, seen.view, seen.buffer, *seen.targets, defines,
+                                        layer ? SceneGpu::Part::moving : SceneGpu::Part::all);
     });
   }
+  return triangles;
 }
 
 Field Halves::field(Half half, const Buffer* pdf) const {

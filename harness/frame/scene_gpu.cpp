@@ -1,6 +1,8 @@
 #include "frame/scene_gpu.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -9,18 +11,18 @@
 namespace vsglbench {
 
 DeferredTargets::DeferredTargets(Device& device, const std::string& name, uint32_t w, uint32_t h,
-                                 const Channels& channels)
+                                 const Channels& channels, VkImageUsageFlags more_usage)
     : width(w), height(h) {
   static constexpr const char* names[] = {"position", "normal", "geometric normal", "diffuse", "f0"};
   const bool there[] = {true, true, channels.geometric_normal, channels.diffuse, channels.f0};
   for (size_t i = 0; i < maps.size(); ++i) {
     if (!there[i]) continue;
-    maps[i] = DeviceImage(
-        device, name + " " + names[i], VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    maps[i] = DeviceImage(device, name + " " + names[i], VK_FORMAT_R32G32B32A32_SFLOAT, w, h,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT | more_usage);
   }
   depth = DeviceImage(device, name + " depth", VK_FORMAT_D32_SFLOAT, w, h,
-                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | more_usage);
 }
 
 FieldMaps DeferredTargets::field_maps() const {
@@ -140,22 +142,31 @@ void SceneGpu::make_draws(const Scene& scene) {
       draw.push.textures |= draw.textures[slot] >= 0 ? 1u << slot : 0u;
     draws_.push_back(draw);
   }
+  const std::vector<uint32_t>& moving = scene.animation.moves.objects;
+  const size_t end =
+      moving.empty() ? scene.triangles.size() : scene.animation.objects.at(moving.front()).first_triangle;
+  still_draws_ = static_cast<size_t>(
+      std::ranges::count_if(scene.batches, [&](const Batch& b) { return b.first_triangle < end; }));
 }
 
-void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
-                    const DeferredTargets& targets, const ShaderDefines& defines) {
+uint64_t SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
+                        const DeferredTargets& targets, const ShaderDefines& defines, Part part) {
+  const size_t first = part == Part::moving ? still_draws_ : 0,
+               end = part == Part::still ? still_draws_ : draws_.size();
+  uint64_t triangles = 0;
   std::vector<const DeviceImage*> maps;
   for (const DeviceImage& map : targets.maps)
     if (map) maps.push_back(&map);
   const RasterPipeline& pipeline = this->pipeline(defines, maps.size());
   const VkCommandBuffer commands = recorder.commands();
   const glm::mat4 view_projection = view.view_projection();
-  pipeline.render(commands, maps, targets.depth, [&] {
+  const auto start = part == Part::moving ? RasterPipeline::Start::copied : RasterPipeline::Start::cleared;
+  pipeline.render(commands, maps, targets.depth, start, [&] {
     const VkBuffer vertices = vertices_.handle();
     const VkDeviceSize zero = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
     vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
-    for (const Draw& draw : draws_) {
+    for (const Draw& draw : std::span(draws_).subspan(first, end - first)) {
       const auto texture = [&](int slot) -> const DeviceImage& {
         return draw.textures[slot] < 0 ? white_ : textures_[draw.textures[slot]];
       };
@@ -164,8 +175,10 @@ void SceneGpu::draw(Recorder& recorder, const View& view, const Buffer& viewer,
       pipeline.bind(commands, recorder.descriptors(),
                     {texture(0), texture(1), texture(2), viewer, face_normals_}, push);
       vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, 0, 0);
+      triangles += draw.index_count / 3;
     }
   });
+  return triangles;
 }
 
 }  // namespace vsglbench

@@ -23,7 +23,7 @@ struct Channels {
 // The targets of one half, in the order of FieldMaps, and their depth.
 struct DeferredTargets {
   DeferredTargets(Device& device, const std::string& name, uint32_t width, uint32_t height,
-                  const Channels& channels = {});
+                  const Channels& channels = {}, VkImageUsageFlags more_usage = 0);
   uint32_t width, height;
   std::array<DeviceImage, 5> maps;  // one that no channel asks for is empty
   DeviceImage depth;
@@ -41,10 +41,14 @@ class SceneGpu {
  public:
   // Uploads geometry and textures; throws Error(case_failed) when they don't fit.
   SceneGpu(Device& device, const Scene& scene);
-  // Draws everything as seen from `view` into `targets`. Inside a pass.
+  // What is drawn. Of two surfaces at one depth the first that is drawn is seen: `still` is all that comes
+  // before the first object that moves in any frame, and `moving` the rest, over what copy_layer() left in
+  // the targets.
+  enum class Part { all, still, moving };
+  // Draws as seen from `view` into `targets`. Inside a pass. Returns the triangles.
   // `defines`: raster_permutation() of the effects that `targets` were made for.
-  void draw(Recorder& recorder, const View& view, const Buffer& viewer, const DeferredTargets& targets,
-            const ShaderDefines& defines = {});
+  uint64_t draw(Recorder& recorder, const View& view, const Buffer& viewer, const DeferredTargets& targets,
+                const ShaderDefines& defines = {}, Part part = Part::all);
   uint64_t triangle_count() const { return triangles_; }
   // Uploads what set_frame() moved of `scene`, the one this was made of: vertices and face normals of those
   // objects and nothing else. Waits for the device; no frame may be at work. Returns the bytes.
@@ -70,6 +74,7 @@ class SceneGpu {
   Device& device_;
   std::map<ShaderDefines, RasterPipeline> pipelines_;
   uint64_t triangles_ = 0;
+  size_t still_draws_ = 0;  // of draws_, the first
 };
 
 }  // namespace vsglbench

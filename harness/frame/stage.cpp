@@ -7,7 +7,7 @@ namespace vsglbench {
 std::filesystem::path frame_kernel(const char* file) { return data_root() / "harness" / "frame" / file; }
 
 Stage::Stage(Device& d, KernelLibrary& k, const Scene& s)
-    : device(d), kernels(k), scene(s), scratch(d), geometry(d, s) {}
+    : device(d), kernels(k), scene(s), scratch(d), geometry(d, s), still_layers(d, geometry) {}
 
 size_t Stage::follow(const Moved& moved) {
   if (!moved.objects.empty()) shadow_maps_.clear();
@@ -20,7 +20,9 @@ DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height, cons
                           .diffuse = (lobes & DIFFUSE_LOBE) != 0,
                           .f0 = (lobes & SPECULAR_LOBE) != 0};
   auto& slot = targets_[{half, width, height, channels}];
-  if (!slot) slot = std::make_unique<DeferredTargets>(device, half_name(half), width, height, channels);
+  const VkImageUsageFlags copied_into = scene.animation.moves.any() ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0u;
+  if (!slot)
+    slot = std::make_unique<DeferredTargets>(device, half_name(half), width, height, channels, copied_into);
   return *slot;
 }
 

@@ -9,6 +9,7 @@
 
 #include "frame/permutation.h"
 #include "frame/scene_gpu.h"
+#include "frame/still_layers.h"
 #include "frame/visibility.h"
 #include "method/context.h"
 #include "method/method.h"
@@ -39,6 +40,7 @@ class Stage {
   ScratchPool scratch;  // of methods
   FrameMemory memory;
   SceneGpu geometry;
+  StillLayers still_layers;  // of frames in motion
   // With the channels that the effects ask for.
   DeferredTargets& targets(Half half, uint32_t width, uint32_t height,
                            const EffectSet& effects = EffectSet::all());

@@ -15,11 +15,12 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule 
           .pName = "main"};
 }
 
-VkRenderingAttachmentInfo attachment(const DeviceImage& image, VkImageLayout layout, VkClearValue clear) {
+VkRenderingAttachmentInfo attachment(const DeviceImage& image, VkImageLayout layout, VkAttachmentLoadOp load,
+                                     VkClearValue clear) {
   return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
           .imageView = image.view(),
           .imageLayout = layout,
-          .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+          .loadOp = load,
           .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
           .clearValue = clear};
 }
@@ -109,15 +110,18 @@ void RasterPipeline::swap(RasterPipeline& other) noexcept {
 }
 
 void RasterPipeline::render(VkCommandBuffer commands, const std::vector<const DeviceImage*>& targets,
-                            const DeviceImage& depth, const std::function<void()>& draw) const {
+                            const DeviceImage& depth, Start start, const std::function<void()>& draw) const {
+  const bool cleared = start == Start::cleared;
+  const VkImageLayout before = cleared ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  const VkAttachmentLoadOp load = cleared ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
   std::vector<VkRenderingAttachmentInfo> colors;
   for (const DeviceImage* target : targets) {
-    transition(commands, *target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    colors.push_back(attachment(*target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {}));
+    transition(commands, *target, before, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    colors.push_back(attachment(*target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, load, {}));
   }
-  transition(commands, depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+  transition(commands, depth, before, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
   const auto depth_info =
-      attachment(depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, {.depthStencil = {.depth = 1.0f}});
+      attachment(depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, load, {.depthStencil = {.depth = 1.0f}});
   const VkRect2D area{{0, 0}, {depth.width(), depth.height()}};
   const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                              .renderArea = area,

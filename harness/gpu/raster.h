@@ -32,10 +32,13 @@ class RasterPipeline {
     return *this;
   }
 
-  // Clears targets to zero and depth to one, then calls `draw` inside the rendering scope. Leaves the colour
-  // targets in SHADER_READ_ONLY_OPTIMAL.
+  // What targets and depth hold before anything is drawn: zero and one, or what was copied into them, which
+  // are in TRANSFER_DST_OPTIMAL then.
+  enum class Start { cleared, copied };
+  // Calls `draw` inside the rendering scope. Leaves the colour targets in SHADER_READ_ONLY_OPTIMAL, and the
+  // depth in DEPTH_ATTACHMENT_OPTIMAL.
   void render(VkCommandBuffer commands, const std::vector<const DeviceImage*>& targets,
-              const DeviceImage& depth, const std::function<void()>& draw) const;
+              const DeviceImage& depth, Start start, const std::function<void()>& draw) const;
   // Within `draw`: binds, and pushes to both stages; throws as BindingLayout does.
   template <class Push>
   void bind(VkCommandBuffer commands, DescriptorArena& arena, const Bindings& bindings,

@@ -45,6 +45,7 @@ void SceneMotion::run() {
     }
   }
   pose(0);
+  stage_.still_layers.clear();
   for (CaseFlicker& c : cases_) finish(c);
 }
 
