@@ -18,7 +18,8 @@ double worker_megabytes() {
 // An image has 0.4 MB: one that were kept of each of 56 frames would show as 21 MB.
 TEST_F(MotionMemoryTest, SixtyFourFramesTakeWhatEightDo) {
   config_["frame"] = {{"width", 240}, {"height", 136}};
-  use(ring_scene(64));
+  use(ring_scene(64));  // with a layer of what stands still
+  config_["methods"] = {{{"method", "mfis-mh"}, {"chains", "carried"}}};
   config_["motion"] = {{"frames", 8}};
   EXPECT_EQ(run().at(0).temporal.value().frames, 8u);
   const double few = worker_megabytes();

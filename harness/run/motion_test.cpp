@@ -120,6 +120,24 @@ TEST_F(MotionTest, AShiftedLatticeFlickers) {
   EXPECT_EQ(cases[0].temporal->still->value, cases[1].temporal->still->value);
 }
 
+// Chains that go on are drawn anew in every frame, with a state for each seed; frame 0 and what is compared
+// are those of fresh ones. One seed is the same whatever others there are.
+TEST_F(MotionTest, CarriedChainsGoOnFromFrameToFrame) {
+  use(ring_scene(3, false));
+  config_["methods"] = {{{"method", "mfis-mh"}, {"steps", 4}, {"chains", {"fresh", "carried"}}}};
+  const std::vector<CaseResult> cases = run();
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].temporal->derivative.value, 0);
+  EXPECT_GT(cases[1].temporal->derivative.value, 0);
+  EXPECT_EQ(cases[0].temporal->still->value, cases[1].temporal->still->value);
+  EXPECT_EQ(part_to_json(cases[0])["accuracy"], part_to_json(cases[1])["accuracy"]);
+  const auto last = [&] { return read_motion_frame(out_ / cases[1].images.at("frames"), 2).image.pixels; };
+  const auto with_others = last();
+  config_["motion"]["seeds"] = 1;
+  EXPECT_EQ(run().size(), 2u);
+  EXPECT_TRUE(last() == with_others);
+}
+
 // What is timed afterwards, and compared, is frame 0.
 TEST_F(MotionTest, ErrorsAreThoseOfTheFirstFrame) {
   use(ring_scene(4));

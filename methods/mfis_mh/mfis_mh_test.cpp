@@ -178,7 +178,7 @@ TEST(MfisMh, CarriedChainsFollowAPdfThatChanges) {
   EXPECT_LT(misfit(now, chains.after(now, 8)), kMostMisfit);
 }
 
-// What fresh chains can't: the more steps they have, the less do they depend on where they start.
+// Of a PDF that stands still, too: it is each chain's own random numbers that move it.
 TEST(MfisMh, TheFewerStepsTheMoreCarriedCentresStay) {
   const oracle::Half half = smooth_half(256, 256);
   const auto share = [&](uint32_t steps) {
@@ -187,7 +187,8 @@ TEST(MfisMh, TheFewerStepsTheMoreCarriedCentresStay) {
     return share_of_equal(before, chains.next(half));
   };
   EXPECT_LT(share(64), 0.05);
-  EXPECT_GT(share(1), 4 * share(4));
+  EXPECT_GT(share(1), 0.05);
+  EXPECT_GT(share(1), 4 * share(2));
 }
 
 TEST(MfisMh, CarriedChainsThatLoseThePdfStartAnew) {
