@@ -24,7 +24,7 @@ EffectSaving saving_of(const std::string& scene, std::vector<EffectReport>* rows
                     {}};
   *rows = ledger(effects.decisions(frame.parameters.width, frame.parameters.height));
   frame.parameters.effects = effects.of(frame.parameters);
-  return price_effects(lab.stage, frame, 8, rows);
+  return price_effects(lab.stage, frame, {.rounds = 8}, rows);
 }
 
 }  // namespace
