@@ -314,6 +314,27 @@ TEST(EffectsAdversary, OnlyMetalIsLit) {
   }
 }
 
+// One half has a specular lobe, the other none: a kernel that takes the one's lobes for the other's loses it.
+TEST(EffectsAdversary, OnlyWhatIsSeenOrOnlyWhatIsLitIsGlossy) {
+  for (const bool seen : {true, false}) {
+    SceneMaker maker;
+    const uint32_t white = maker.lambert(), shiny = maker.material(glossy(0.3f));
+    maker.quad(seen ? white : shiny, {-2, 0, 1}, {0, 0, -2}, {0, 2, 0});
+    maker.quad(seen ? shiny : white, {2, 0, -1}, {0, 0, 2}, {0, 2, 0});
+    maker.spot({-1, 1, 0}, {-2, 1, 0}, 60);
+    maker.camera({1, 1, 0}, {2, 1, 0}, 60);
+    Laboratory lab(maker.finish());
+    EXPECT_EQ(needs(lab.scene, Effect::glossy_receivers), seen);
+    EXPECT_EQ(needs(lab.scene, Effect::glossy_emitters), !seen);
+    ASSERT_GE(all_methods().size(), 12u);
+    for (const MethodInfo* method : all_methods()) {
+      FrameParameters p = kSmall;
+      p.rsm = 32;
+      expect_equal(lab, method->name, p);
+    }
+  }
+}
+
 // A glossy plate that the camera sees in the last frame alone: what it calls for is there from the first on,
 // and the last frame shows it.
 TEST(EffectsAdversary, AnObjectThatEntersTheFrustumInTheLastFrame) {
