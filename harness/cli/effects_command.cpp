@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/file.h"
 #include "cli/command.h"
 #include "method/registry.h"
+#include "report/ledger.h"
 #include "run/effect_prices.h"
 #include "run/runner.h"
 #include "run/scene_effects.h"
@@ -23,36 +22,16 @@ struct EffectsOptions {
   bool price = false, json = false;
 };
 
-std::string price_cell(const EffectReport& e) {
-  if (!e.ms) return "";
-  return fmt::format("{:+.2f} ms [{:.2f} … {:.2f}], {:+.2f} MiB", *e.ms, e.ms_ci95->lo, e.ms_ci95->hi,
-                     static_cast<double>(*e.bytes) / (1 << 20));
-}
-
-void print(const std::vector<EffectReport>& ledger, bool priced) {
-  size_t name_width = 0, price_width = 0;
-  for (const EffectReport& e : ledger) {
-    name_width = std::max(name_width, e.name.size());
-    price_width = std::max(price_width, price_cell(e).size());
-  }
-  for (const EffectReport& e : ledger) {
-    const std::string price = priced ? fmt::format("{:<{}}  ", price_cell(e), price_width) : "";
-    fmt::print("{:<{}}  {}  {}{}\n", e.name, name_width, e.needed ? "needed " : "skipped", price, e.reason);
-  }
-}
-
-void print_json(const std::vector<EffectReport>& ledger) {
+Json json_of(const std::vector<EffectReport>& ledger) {
   Json rows = Json::array();
   for (const EffectReport& e : ledger) {
     Json row = {{"name", e.name}, {"needed", e.needed}, {"reason", e.reason}, {"passes", e.passes}};
-    if (e.ms) {
-      row["ms"] = *e.ms;
-      row["ms_ci95"] = {e.ms_ci95->lo, e.ms_ci95->hi};
-      row["bytes"] = *e.bytes;
-    }
+    if (e.ms) row["ms"] = *e.ms;
+    if (e.ms_ci95) row["ms_ci95"] = {e.ms_ci95->lo, e.ms_ci95->hi};
+    if (e.bytes) row["bytes"] = *e.bytes;
     rows.push_back(row);
   }
-  fmt::print("{}\n", rows.dump(2));
+  return rows;
 }
 
 EffectSaving price(const EffectsOptions& options, const Scene& scene, SceneEffects& effects,
@@ -63,18 +42,37 @@ EffectSaving price(const EffectsOptions& options, const Scene& scene, SceneEffec
   const MethodInfo& method = load_method(options.method, device.info());
   PricedFrame frame{method, resolve_parameters(method, Json::object()), options.frame, {}};
   frame.parameters.effects = effects.of(frame.parameters);
-  return price_effects(stage, frame, options.rounds, ledger);
+  return price_effects(stage, frame, {.rounds = options.rounds}, ledger);
+}
+
+// A report's folder or file, not a scene's.
+bool is_report(const std::string& path) {
+  std::error_code ec;
+  const std::filesystem::path file = report_file(path);
+  if (!is_path(file.string()) || !std::filesystem::is_regular_file(file, ec)) return false;
+  return read_text(file).find("\"vsglbench.report/") != std::string::npos;
+}
+
+void show_report(const EffectsOptions& options) {
+  if (options.price)
+    throw fail(ErrorKind::usage, "--price is of a scene; a report's prices come with `run --price-effects`");
+  const Report report = read_report_at(options.scene);
+  if (!options.json) return fmt::print("{}", ledgers_of(report));
+  Json scenes = Json::object();
+  for (const SceneReport& scene : report.scenes) scenes[scene.name] = json_of(scene.effects);
+  fmt::print("{}\n", scenes.dump(2));
 }
 
 void show(EffectsOptions options) {
+  if (is_report(options.scene)) return show_report(options);
   options.frame.visibility = parse_visibility(options.visibility);
   const Scene scene = load_scene(options.scene, {data_root() / "scenes", assets_directory(options.assets)});
   SceneEffects effects(scene);
   auto rows = ledger(effects.decisions(options.frame.width, options.frame.height));
   EffectSaving saving;
   if (options.price) saving = price(options, scene, effects, &rows);
-  if (options.json) return print_json(rows);
-  print(rows, options.price);
+  if (options.json) return fmt::print("{}\n", json_of(rows).dump(2));
+  fmt::print("{}", ledger_text(rows));
   if (!options.price) return;
   const auto mib = [](int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   fmt::print(
@@ -94,10 +92,13 @@ void add_effects_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "effects", "which effects a scene calls for and why; what no effect asks for is not simulated");
   command->footer(
-      "Nothing is rendered without --price. `run --force-effects` and `--skip-effects` turn effects on and "
-      "off.\n"
-      "Example: vsglbench effects cornell --price");
-  command->add_option("scene", options->scene, "scene, with :VIEW; a name or a path")->required();
+      "Nothing is rendered without --price. `run --price-effects` prices the ledger of a report; `run "
+      "--force-effects` and\n`--skip-effects` turn effects on and off.\n"
+      "Examples: vsglbench effects cornell --price; vsglbench effects reports/out/quick");
+  command
+      ->add_option("scene", options->scene,
+                   "scene, with :VIEW, a name or a path; or a report: the ledgers that a run wrote into it")
+      ->required();
   command->add_flag("--price", options->price, "render frames with and without each effect, and time them");
   command->add_option("--method", options->method, "of the priced frames")->capture_default_str();
   command->add_option("--lights", options->frame.lights, "N of the priced frames")->capture_default_str();

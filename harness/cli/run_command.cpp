@@ -9,6 +9,7 @@
 #include "base/percent.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "report/ledger.h"
 #include "report/noise.h"
 #include "report/table.h"
 #include "run/config.h"
@@ -29,6 +30,8 @@ void on_interrupt(int signal) {
 
 void print_outcome(const RunOutcome& outcome) {
   fmt::print("{}", terminal_table(outcome.report, {.width = terminal_width()}));
+  for (const SceneReport& scene : outcome.report.scenes)
+    if (!scene.effects.empty()) fmt::print("{}", short_ledger(scene));
   const WallTime& w = outcome.report.wall;
   fmt::print(
       "{}\n{:.1f} s in all: frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
@@ -99,6 +102,12 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
     command->add_option_function<std::string>(
         option, [=](const std::string& effects) { options->set.push_back(key + "=" + effects); }, help);
   }
+  command
+      ->add_flag("--price-effects{8}", options->price_effects,
+                 "time frames with and without each effect, after everything else of a scene, and write "
+                 "what it costs\nor saves into the report; --price-effects=ROUNDS of frames, 8 if not "
+                 "given (default: the config's, none)")
+      ->check(CLI::Range(1, 1000));
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device,
                       "Vulkan device: index, UUID, PCI address or part of its name");

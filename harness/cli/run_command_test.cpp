@@ -54,6 +54,39 @@ TEST_F(RunCommand, SaysThatSamplesWereRoundedUp) {
   EXPECT_EQ(f.err.find("asked for"), std::string::npos) << f.err;
 }
 
+TEST_F(RunCommand, PricesTheLedgerAndPrintsIt) {
+  const Finished plain = measure({});
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  EXPECT_TRUE(contains(
+      plain.out, "cornell calls for 3 of 13 effects: diffuse_receivers, diffuse_emitters, occlusion\n"));
+  EXPECT_EQ(plain.out.find("with all effects"), std::string::npos) << plain.out;
+  const Finished priced = measure({"--price-effects=2"});
+  ASSERT_EQ(priced.code, 0) << priced.err;
+  EXPECT_TRUE(contains(priced.out, "; with all effects "));
+  EXPECT_TRUE(contains(priced.out, " times as long; 2 rounds, "));
+  EXPECT_TRUE(contains(priced.out, "\n  glossy_receivers             skipped  "));
+
+  // The report's ledger is what `effects` shows of it.
+  for (const std::string& path : {out_.string(), (out_ / "report.json").string()}) {
+    const Finished shown = run({"effects", path});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    EXPECT_TRUE(shown.out.starts_with("cornell\ndiffuse_receivers")) << shown.out;
+    EXPECT_TRUE(contains(shown.out, " times as long; 2 rounds, "));
+  }
+  const Json rows = Json::parse(run({"effects", out_.string(), "--json"}).out).at("cornell");
+  ASSERT_EQ(rows.size(), 13u);
+  EXPECT_EQ(rows[0].at("ms"), *report().scenes.at(0).effects.at(0).ms);
+  expect_refused(run({"effects", out_.string(), "--price"}), 2, "run --price-effects");
+  expect_refused(measure({"--price-effects=0"}), 2, "--price-effects");
+  expect_refused(measure({"--price-effects=-1"}), 2, "--price-effects");
+  expect_refused(measure({"--price-effects=many"}), 2, "--price-effects");
+
+  config_["measure"] = "generation";
+  config_.erase("seeds");
+  config_.erase("reference");
+  expect_refused(measure({"--price-effects"}), 2, "measures generation alone");
+}
+
 TEST_F(RunCommand, OnlyTakesAGlobThatMatches) {
   config_["methods"] = {{{"method", "vpl"}}, {{"method", "mfis"}}};
   ASSERT_EQ(measure({"--only", "*/mfis/*"}).code, 0);

@@ -62,16 +62,28 @@ struct EffectReport {
   std::optional<int64_t> bytes;  // of images and buffers on the device
 };
 
+// Of which frame the ledger's prices are, and what it costs beside the same frame with all effects.
+struct EffectPricing {
+  std::string case_id;
+  uint64_t rounds = 0;  // frames of each kind, in turn
+  // Medians from the first to the last timestamp: of the case's frame, and with all effects.
+  double span_ms = 0, span_ms_all = 0;
+  Ratio ratio;  // of the second to the first
+  int64_t bytes = 0, bytes_all = 0;
+  double seconds = 0;  // that pricing took
+};
+
 struct SceneReport {
   std::string name, hash;
   uint64_t triangles = 0;
   std::vector<std::string> warnings;
-  glm::dvec3 light_flux{0};           // W inside the light's frustum
-  double exposure = 1;                // of the scene's previews
-  std::string contact;                // relative path of the contact sheet; empty: none
-  std::vector<std::string> notes;     // accuracy_notes() of its cases
-  std::optional<ClockReport> clocks;  // absent where no library tells
-  std::vector<EffectReport> effects;  // empty in a report of old
+  glm::dvec3 light_flux{0};                     // W inside the light's frustum
+  double exposure = 1;                          // of the scene's previews
+  std::string contact;                          // relative path of the contact sheet; empty: none
+  std::vector<std::string> notes;               // accuracy_notes() of its cases
+  std::optional<ClockReport> clocks;            // absent where no library tells
+  std::vector<EffectReport> effects;            // empty in a report of old
+  std::optional<EffectPricing> effects_priced;  // absent: not asked for, or no case was sound
 };
 
 struct TimeNoise {
@@ -180,9 +192,9 @@ struct SeedResult {
 };
 
 // How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
-// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds, and
-// worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image of
-// seed i is from the mean of all, and worst_frame the seed of its largest; it has no interval.
+// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds,
+// and worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image
+// of seed i is from the mean of all, and worst_frame the seed of its largest; it has no interval.
 struct FlickerSeries {
   double value = 0;
   double p99 = 0;  // 99th percentile over pixels; of `derivative` the mean over seeds

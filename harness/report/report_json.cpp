@@ -50,6 +50,18 @@ void fields(auto& a, Is<EffectReport> auto& v) {
   a("bytes", v.bytes);
 }
 
+void fields(auto& a, Is<EffectPricing> auto& v) {
+  a("case", v.case_id);
+  a("rounds", v.rounds);
+  a("span_ms", v.span_ms);
+  a("span_ms_all", v.span_ms_all);
+  a("ratio", v.ratio.value);
+  a("ratio_ci95", v.ratio.ci95);
+  a("bytes", v.bytes);
+  a("bytes_all", v.bytes_all);
+  a("seconds", v.seconds);
+}
+
 void fields(auto& a, Is<SceneReport> auto& v) {
   a("name", v.name);
   a("hash", v.hash);
@@ -61,6 +73,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a.unless_empty("notes", v.notes);
   a("clocks", v.clocks);
   a.unless_empty("effects", v.effects);
+  a("effects_priced", v.effects_priced);
 }
 
 void fields(auto& a, Is<TimeNoise> auto& v) {

@@ -72,6 +72,7 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
                                        "/scenes/0/notes",
                                        "/scenes/0/clocks",
                                        "/scenes/0/effects",
+                                       "/scenes/0/effects_priced",
                                        "/scenes/0/effects/0/bytes",
                                        "/scenes/0/effects/0/ms",
                                        "/scenes/0/effects/0/ms_ci95",
@@ -139,11 +140,28 @@ TEST(ReportSchema, NullIsNowhereAllowed) {
 }
 
 TEST(ReportSchema, UnknownFieldsAreRefused) {
-  for (const char* object :
-       {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa/0", "/aa/0/times/1", "/cases/0",
-        "/cases/0/passes/1", "/cases/0/frame", "/cases/0/generate", "/cases/0/accuracy",
-        "/cases/0/accuracy/bias", "/cases/0/accuracy/reference", "/cases/0/seeds/2", "/cases/0/health",
-        "/cases/1/error", "/cases/0/temporal", "/cases/0/temporal/static", "/cases/0/temporal/detail"}) {
+  for (const char* object : {"",
+                             "/git",
+                             "/environment",
+                             "/environment/host",
+                             "/scenes/0",
+                             "/scenes/0/effects/0",
+                             "/scenes/0/effects_priced",
+                             "/aa/0",
+                             "/aa/0/times/1",
+                             "/cases/0",
+                             "/cases/0/passes/1",
+                             "/cases/0/frame",
+                             "/cases/0/generate",
+                             "/cases/0/accuracy",
+                             "/cases/0/accuracy/bias",
+                             "/cases/0/accuracy/reference",
+                             "/cases/0/seeds/2",
+                             "/cases/0/health",
+                             "/cases/1/error",
+                             "/cases/0/temporal",
+                             "/cases/0/temporal/static",
+                             "/cases/0/temporal/detail"}) {
     EXPECT_NE(first_violation([&](Json& j) { at(j, object)["extra"] = 1; }), "") << object;
   }
 }
@@ -215,6 +233,8 @@ TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
                                                  {"/scenes/0/light_flux", {1, 2}},
                                                  {"/scenes/0/contact", "/absolute.png"},
                                                  {"/scenes/0/clocks/readings", -1},
+                                                 {"/scenes/0/effects_priced/rounds", 0},
+                                                 {"/scenes/0/effects_priced/ratio", 0},
                                                  {"/aa/0/times/0/ratio", 0},
                                                  {"/aa/0/times/0/column", "shading"},
                                                  {"/environment/host/load_at_start", -1},

@@ -107,6 +107,8 @@ inline Report synthetic_report() {
                           Interval{0.1, 0.3},
                           0.2,
                           4096}};
+  r.scenes[0].effects_priced =
+      EffectPricing{"cornell/mfis", 4, 10, 21, {2.1, {2.0, 2.2}}, 1 << 20, 3 << 20, 1.5};
   r.scenes[0].clocks = ClockReport{3, 1800, 1980, 3201, 3201, 62, 512.5, {"P0"}, {}};
   r.aa = {
       {"cornell",

@@ -130,7 +130,7 @@ void read_motion(const JsonDocument& doc, Config* config) {
 // What only an image is judged with is refused where there is none.
 Measure read_measure(const JsonDocument& doc) {
   if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
-  std::vector<std::string> unread = {"seeds", "reference", "ism", "motion"};
+  std::vector<std::string> unread = {"seeds", "reference", "ism", "motion", "price_effects"};
   for (const CaseKey& key : case_keys()) {
     if (key.scope & kFrame) unread.push_back(key.name);
   }
@@ -158,6 +158,7 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
   if (!generation) {
     out["ism"] = {{"size", base.ism.size}, {"points", base.ism.points}};
     out["seeds"] = config.seeds;
+    if (config.price_effects > 0) out["price_effects"] = config.price_effects;
     out["reference"] = {{"samples", config.reference.samples},
                         {"batches", config.reference.batches},
                         {"seed", config.reference.seed},
@@ -213,6 +214,7 @@ Config load_config(const fs::path& path, const Overrides& overrides) {
   config.scenes = root.at("scenes").get<std::vector<std::string>>();
   config.measure = read_measure(doc);
   config.seeds = root.value("seeds", config.seeds);
+  config.price_effects = root.value("price_effects", config.price_effects);
   config.time_limit_s = root.value("time_limit_s", config.time_limit_s);
   check_scenes(doc, config.scenes);
   read_timing(doc, &config);

@@ -37,8 +37,9 @@ struct Config {
   double time_limit_s = 600;  // of one action of a case, such as a frame: after that it hangs
   StoppingRule timing{0.02, 8, 200, 30};
   ReferenceSettings reference;
+  uint32_t price_effects = 0;            // rounds of frames that price the scenes' ledgers; 0: none
   std::optional<MotionSettings> motion;  // nothing: frame 0 alone is looked at
-  Json resolved;  // with every default filled in: the report's `config`
+  Json resolved;                         // with every default filled in: the report's `config`
 };
 
 // Throws Error(config) "FILE:LINE: ..." for anything unknown, of a wrong type, out of range, a scene that

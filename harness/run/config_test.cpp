@@ -55,6 +55,8 @@ TEST_F(ConfigTest, WrongTypesAndRanges) {
   EXPECT_TRUE(contains(after("/methods/0/rsm", Json::array()), "empty list"));
   EXPECT_TRUE(contains(after("/methods/0/visibility", true), "no visibility 'true'"));
   EXPECT_TRUE(contains(after("/seeds", 0), "at least 1"));
+  EXPECT_TRUE(contains(after("/price_effects", -1), "at least 0"));
+  EXPECT_TRUE(contains(after("/price_effects", true), "must be integer"));
   EXPECT_TRUE(contains(after("/timing/time_limit_s", 0), "over 0"));
   EXPECT_TRUE(contains(after("/timing/max_samples", 1), "1 is under min_samples, 2"));
   EXPECT_TRUE(contains(after("/reference/batches", 3), "must be even"));
@@ -76,6 +78,9 @@ TEST_F(ConfigTest, TwoNamesOfOneSceneAreRefused) {
 
 TEST_F(ConfigTest, GenerationAloneReadsNothingOfImages) {
   config_["measure"] = "generation";
+  config_["price_effects"] = 4;
+  EXPECT_NE(problem(), "no error");
+  config_.erase("price_effects");
   for (const char* key : {"seeds", "reference"}) {
     EXPECT_TRUE(contains(problem(), fmt::format("'{}' is not read where only generation is measured", key)));
     config_.erase(key);

@@ -9,7 +9,8 @@ using namespace vsglbench;
 
 namespace {
 
-EffectSaving saving_of(const std::string& scene, std::vector<EffectReport>* rows) {
+// `rows`: the scene's ledger, priced; null: what all effects cost, and no more.
+EffectSaving saving_of(const std::string& scene, uint32_t rounds, std::vector<EffectReport>* rows) {
   Laboratory lab(scene);
   SceneEffects effects(lab.scene);
   const MethodInfo& method = load_method("mfis", Laboratory::device().info());
@@ -22,9 +23,10 @@ EffectSaving saving_of(const std::string& scene, std::vector<EffectReport>* rows
                      .importance_lights = 512,
                      .visibility = Visibility::none},
                     {}};
-  *rows = ledger(effects.decisions(frame.parameters.width, frame.parameters.height));
+  std::vector<EffectReport> none;
+  if (rows) *rows = ledger(effects.decisions(frame.parameters.width, frame.parameters.height));
   frame.parameters.effects = effects.of(frame.parameters);
-  return price_effects(lab.stage, frame, 8, rows);
+  return price_effects(lab.stage, frame, {.rounds = rounds}, rows ? rows : &none);
 }
 
 }  // namespace
@@ -33,7 +35,7 @@ EffectSaving saving_of(const std::string& scene, std::vector<EffectReport>* rows
 // CPU, where reading a light costs as much as its arithmetic, two thirds of the frame's.
 TEST(EffectPrices, CornellIsTwiceAsFastAsWithAllEffects) {
   std::vector<EffectReport> rows;
-  const EffectSaving saving = saving_of("cornell", &rows);
+  const EffectSaving saving = saving_of("cornell", 8, &rows);
   const double method = saving.forced_ms.median / saving.derived_ms.median;
   const double frame = saving.forced_span_ms.median / saving.derived_span_ms.median;
   std::printf("cornell, all effects over those it calls for: method %.2f, frame %.2f, bytes %.2f\n", method,
@@ -56,8 +58,7 @@ TEST(EffectPrices, CornellIsTwiceAsFastAsWithAllEffects) {
 // Where every effect is needed there is nothing to lose: the ledger makes no scene slower.
 TEST(EffectPrices, NoSceneIsSlower) {
   for (const char* scene : {"cornell-glossy", "ring514", "colonnade"}) {
-    std::vector<EffectReport> rows;
-    const EffectSaving saving = saving_of(scene, &rows);
+    const EffectSaving saving = saving_of(scene, 24, nullptr);
     const Ratio ratio = median_ratio(saving.derived_span_ms.samples, saving.forced_span_ms.samples);
     std::printf("%s, derived over forced: %.3f [%.3f, %.3f]\n", scene, ratio.value, ratio.ci95.lo,
                 ratio.ci95.hi);

@@ -2,8 +2,10 @@
 // careless rule skips what is needed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
+#include "run/effect_prices.h"
 #include "run/random_scene.h"
 #include "scene/animation.h"
 
@@ -101,6 +103,31 @@ TEST(Effects, AreNamedInOptions) {
 }
 
 TEST(Effects, OfRandomScenesGiveTheImageOfAll) { expect_random_scenes_equal(24, false); }
+
+// However many frames are held at a time.
+TEST(Effects, ArePricedOneByOneAsAllAtOnce) {
+  Laboratory lab("cornell");
+  SceneEffects effects(lab.scene);
+  const MethodInfo& method = load_method("vpl", Laboratory::device().info());
+  PricedFrame frame{method, resolve_parameters(method, Json::object()), kSmall, {}};
+  frame.parameters.effects = effects.of(frame.parameters);
+  const std::vector<EffectReport> unpriced =
+      ledger(effects.decisions(frame.parameters.width, frame.parameters.height));
+  std::vector<EffectReport> by_one = unpriced, at_once = unpriced;
+  std::vector<std::string> actions;
+  const auto keep = [&](const std::string& action) { actions.push_back(action); };
+  const EffectSaving one = price_effects(lab.stage, frame, {.rounds = 1, .at_once = 1, .now = keep}, &by_one);
+  const auto opened = [](const std::string& action) { return action.starts_with("opening"); };
+  EXPECT_EQ(std::ranges::count_if(actions, opened), 12);  // its own, all, and ten switched
+  for (size_t i = 0; i + 1 < actions.size(); ++i) EXPECT_FALSE(opened(actions[i]) && opened(actions[i + 1]));
+  const EffectSaving all = price_effects(lab.stage, frame, {.rounds = 1, .at_once = 100}, &at_once);
+  EXPECT_EQ(one.derived_bytes, all.derived_bytes);
+  EXPECT_EQ(one.forced_bytes, all.forced_bytes);
+  for (size_t i = 0; i < unpriced.size(); ++i) {
+    EXPECT_EQ(by_one[i].bytes, at_once[i].bytes) << by_one[i].name;
+    EXPECT_EQ(by_one[i].ms.has_value(), !by_one[i].name.starts_with("moving_"));
+  }
+}
 
 // --- scenes on which a careless rule skips what is needed ---
 
@@ -284,6 +311,27 @@ TEST(EffectsAdversary, OnlyMetalIsLit) {
     FrameParameters p = kSmall;
     p.rsm = 32;
     expect_equal(lab, method->name, p);
+  }
+}
+
+// One half has a specular lobe, the other none: a kernel that takes the one's lobes for the other's loses it.
+TEST(EffectsAdversary, OnlyWhatIsSeenOrOnlyWhatIsLitIsGlossy) {
+  for (const bool seen : {true, false}) {
+    SceneMaker maker;
+    const uint32_t white = maker.lambert(), shiny = maker.material(glossy(0.3f));
+    maker.quad(seen ? white : shiny, {-2, 0, 1}, {0, 0, -2}, {0, 2, 0});
+    maker.quad(seen ? shiny : white, {2, 0, -1}, {0, 0, 2}, {0, 2, 0});
+    maker.spot({-1, 1, 0}, {-2, 1, 0}, 60);
+    maker.camera({1, 1, 0}, {2, 1, 0}, 60);
+    Laboratory lab(maker.finish());
+    EXPECT_EQ(needs(lab.scene, Effect::glossy_receivers), seen);
+    EXPECT_EQ(needs(lab.scene, Effect::glossy_emitters), !seen);
+    ASSERT_GE(all_methods().size(), 12u);
+    for (const MethodInfo* method : all_methods()) {
+      FrameParameters p = kSmall;
+      p.rsm = 32;
+      expect_equal(lab, method->name, p);
+    }
   }
 }
 

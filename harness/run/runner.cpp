@@ -27,6 +27,14 @@ namespace {
 Config read_config(const RunOptions& options) {
   Config config = load_config(options.config, parse_overrides(options.set));
   for (Case& c : config.cases) c.frame.check_passes = options.check_passes;
+  if (options.price_effects > 0) {
+    if (config.measure == Measure::generation)
+      throw fail(ErrorKind::usage, "{}: measures generation alone, and effects are priced by whole frames",
+                 options.config.string());
+    config.price_effects = options.price_effects;
+    config.resolved["price_effects"] = options.price_effects;
+  }
+  if (options.check_passes) config.price_effects = 0;  // no times that can be compared
   return config;
 }
 

@@ -19,9 +19,10 @@ struct RunOptions {
   std::string device;             // as in select_device()
   bool force = false;             // measure again what an interrupted run had finished
   bool validation = false;        // with the validation layers; a message fails the run
-  bool check_passes = false;  // every pass by itself, its outputs looked at: FrameParameters::check_passes
-  double time_limit_s = 0;    // replaces the config's; 0: the config's
-  Announce sabotage;          // tests only, see WorkerOptions
+  bool check_passes = false;   // every pass by itself, its outputs looked at: FrameParameters::check_passes
+  uint32_t price_effects = 0;  // replaces the config's; 0: the config's
+  double time_limit_s = 0;     // replaces the config's; 0: the config's
+  Announce sabotage;           // tests only, see WorkerOptions
   std::vector<std::string> argv;
 };
 

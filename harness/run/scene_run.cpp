@@ -6,6 +6,9 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "measure/stopwatch.h"
+#include "method/registry.h"
+#include "run/effect_prices.h"
 #include "run/ground_truth.h"
 #include "run/memory.h"
 #include "run/scene_effects.h"
@@ -37,6 +40,8 @@ class SceneRun {
   bool add_twin();
   void conclude(CaseRun& run);
   void draw_sheet();
+  const Case* first_sound_case() const;
+  void price();
   void harness_works(const std::string& what) { observer_.now({"", what, false}); }
 
   Scene& scene_;
@@ -139,18 +144,19 @@ CaseRun& SceneRun::open(const Case& c) {
 // --- looking ---
 
 void SceneRun::run(const std::vector<Case>& cases) {
-  if (report_.effects.empty() && !cases.empty()) {
-    const FrameParameters& frame = cases.front().frame;
+  if (report_.effects.empty() && !config_.cases.empty()) {
+    const FrameParameters& frame = (cases.empty() ? config_.cases : cases).front().frame;
     report_.effects = ledger(effects_.decisions(frame.width, frame.height));
   }
   runs_.reserve(cases.size() + 1);  // and the twin: a case's visibility callback keeps a pointer to it
   look_at_all(cases);
-  if (config_.motion) look_at_motion();
+  if (config_.motion && !cases.empty()) look_at_motion();
   const bool twin = wants_twin_ && add_twin();
   SceneRounds(runs_, twin, config_, observer_, [this](CaseRun& run) {
     conclude(run);
   }).run(clocks_, &report_);
   if (config_.measure == Measure::frame) draw_sheet();
+  if (config_.price_effects > 0 && !report_.effects_priced) price();
 }
 
 // While the device renders a case's seeds, the host measures those of the cases before it.
@@ -234,6 +240,52 @@ void SceneRun::draw_sheet() {
       std::find_if(planned.begin(), planned.end(), [&](const Case& c) { return c.id == drawn->id; });
   images_.write_sheet(all, truth_->references.get(*shown), truth_->references.info(*shown));
   observer_.described(report_);
+}
+
+// --- pricing ---
+
+// In the order of the experiment, whichever process has measured it; null: none.
+const Case* SceneRun::first_sound_case() const {
+  const auto is_sound = [](const Case& c, const std::vector<CaseResult>& results) {
+    return std::ranges::any_of(results,
+                               [&](const CaseResult& r) { return r.id == c.id && r.status == Status::ok; });
+  };
+  const auto found = std::ranges::find_if(config_.cases, [&](const Case& c) {
+    return c.scene == report_.name && (is_sound(c, results_) || is_sound(c, earlier_.cases));
+  });
+  return found == config_.cases.end() ? nullptr : &*found;
+}
+
+// After everything else: nothing is timed beside it, the cases' frames are gone, and whatever goes wrong
+// costs the prices alone.
+void SceneRun::price() {
+  const Case* c = first_sound_case();
+  if (!c) return;
+  const Stopwatch watch;
+  const auto action = [&] {
+    require_memory(stage_.device.info(), *c, 2 * kept_memory(*c));
+    PricedFrame frame{load_method(c->method, stage_.device.info()), c->method_parameters, c->frame,
+                      [this](const Frame& traced, const std::vector<LightPoint>& lights) {
+                        return truth_->visibility.trace(traced, lights);
+                      }};
+    frame.parameters.effects = effects_.of(c->frame);
+    const PriceOptions options{.rounds = config_.price_effects,
+                               .now =
+                                   [this](const std::string& what) {
+                                     observer_.now({"", "pricing effects: " + what, true});
+                                   },
+                               .wall = wall_};
+    EffectPricing pricing = pricing_of(price_effects(stage_, frame, options, &report_.effects));
+    pricing.case_id = c->id;
+    pricing.seconds = watch.seconds();
+    report_.effects_priced = pricing;
+    observer_.described(report_);
+  };
+  guarded(action, [&](ErrorKind, const std::string& message) {
+    report_.warnings.push_back("its effects were not priced: " + message);
+    log_warning("{}: {}", report_.name, report_.warnings.back());
+    observer_.described(report_);
+  });
 }
 
 }  // namespace

@@ -112,6 +112,12 @@ bool is_undrawn(const SceneOutcome& outcome) {
                      [](const CaseResult& c) { return !c.images.empty(); });
 }
 
+// Whether only the prices of its effects are missing.
+bool is_unpriced(const Config& config, const SceneOutcome& outcome) {
+  return config.price_effects > 0 && outcome.scene && !outcome.scene->effects_priced &&
+         std::ranges::any_of(outcome.cases, [](const CaseResult& c) { return c.status == Status::ok; });
+}
+
 void work(const Worker<SceneNews>& worker, const std::vector<size_t>& left, const Jobs& jobs,
           const std::string& scene, const Config& config, const WorkerOptions& options,
           const SceneOutcome& earlier) {
@@ -119,7 +125,7 @@ void work(const Worker<SceneNews>& worker, const std::vector<size_t>& left, cons
   std::vector<Case> cases;
   for (const size_t job : left)
     if (job < jobs.cases.size()) cases.push_back(jobs.cases[job]);
-  if (cases.empty() && !is_undrawn(earlier)) return;
+  if (cases.empty() && !is_undrawn(earlier) && !is_unpriced(config, earlier)) return;
   const bool aa = std::count(left.begin(), left.end(), jobs.twin()) > 0;
   Device device(options.device);
   Reporter reporter(worker, jobs, options, device);
