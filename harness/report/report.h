@@ -180,16 +180,17 @@ struct SeedResult {
 };
 
 // How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
-// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds, and
-// worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image of
-// seed i is from the mean of all, and worst_frame the seed of its largest; it has no interval.
+// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds,
+// and worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image
+// of seed i is from the mean of all, and worst_frame the seed of its largest; it has no interval.
 struct FlickerSeries {
   double value = 0;
   double p99 = 0;  // 99th percentile over pixels; of `derivative` the mean over seeds
   uint64_t worst_frame = 0;
   std::vector<double> series;
   std::optional<Interval> ci95;
-  std::string formula;  // MetricFormula::id
+  std::string formula;         // MetricFormula::id
+  std::vector<double> values;  // of `derivative`, of seed 0, 1, …; empty in a report of old, and of `static`
 };
 
 // The reference's detail that is kept (image/detail.h), as FlickerSeries.
@@ -197,6 +198,7 @@ struct DetailResult {
   double value = 0;
   std::optional<Interval> ci95;
   std::string formula;
+  std::vector<double> values;
 };
 
 // Over the first `frames` frames of a scene in motion, each rendered with `seeds` seeds.

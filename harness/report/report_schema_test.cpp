@@ -108,9 +108,11 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
                           "accuracy/reference/ended_by",
                           "temporal",
                           "temporal/derivative/ci95",
+                          "temporal/derivative/values",
                           "temporal/static",
                           "temporal/detail",
-                          "temporal/detail/ci95"}) {
+                          "temporal/detail/ci95",
+                          "temporal/detail/values"}) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
@@ -139,11 +141,26 @@ TEST(ReportSchema, NullIsNowhereAllowed) {
 }
 
 TEST(ReportSchema, UnknownFieldsAreRefused) {
-  for (const char* object :
-       {"", "/git", "/environment", "/environment/host", "/scenes/0", "/aa/0", "/aa/0/times/1", "/cases/0",
-        "/cases/0/passes/1", "/cases/0/frame", "/cases/0/generate", "/cases/0/accuracy",
-        "/cases/0/accuracy/bias", "/cases/0/accuracy/reference", "/cases/0/seeds/2", "/cases/0/health",
-        "/cases/1/error", "/cases/0/temporal", "/cases/0/temporal/static", "/cases/0/temporal/detail"}) {
+  for (const char* object : {"",
+                             "/git",
+                             "/environment",
+                             "/environment/host",
+                             "/scenes/0",
+                             "/aa/0",
+                             "/aa/0/times/1",
+                             "/cases/0",
+                             "/cases/0/passes/1",
+                             "/cases/0/frame",
+                             "/cases/0/generate",
+                             "/cases/0/accuracy",
+                             "/cases/0/accuracy/bias",
+                             "/cases/0/accuracy/reference",
+                             "/cases/0/seeds/2",
+                             "/cases/0/health",
+                             "/cases/1/error",
+                             "/cases/0/temporal",
+                             "/cases/0/temporal/static",
+                             "/cases/0/temporal/detail"}) {
     EXPECT_NE(first_violation([&](Json& j) { at(j, object)["extra"] = 1; }), "") << object;
   }
 }
