@@ -205,12 +205,12 @@ std::string note_on_flicker(const std::vector<const CaseResult*>& cases, const s
   const auto moves = [](const CaseResult* c) { return c->temporal.has_value(); };
   if (std::ranges::none_of(columns, is_temporal) || std::ranges::none_of(cases, moves)) return "";
   return "over the frames in motion, relative to the mean of the references: flicker, how far the image "
-         "changes "
-         "from frame to frame other than its reference, mean and 95 % over seeds; static flicker, the "
-         "standard "
-         "deviation of a still frame over seeds; detail, how much of the reference's is left: 1 as sharp, "
-         "below 1 "
-         "blurred, which flickers less";
+         "changes from "
+         "frame to frame other than its reference, so that light which lags or is blurred away counts too, "
+         "mean and 95 % "
+         "over seeds; static flicker, the standard deviation of a still frame over seeds; detail, how much "
+         "of the "
+         "reference's is left: 1 as sharp, below 1 blurred";
 }
 
 }  // namespace
