@@ -124,7 +124,7 @@ Json budget_json(const Budget& budget) {
     if (part.error) {
       entry["case"] = part.case_id;
       entry["error"] = part.error->value;
-      entry["increment"] = *part.increment;
+      if (part.increment) entry["increment"] = *part.increment;
     } else {
       entry["missing"] = part.missing;
     }

@@ -1,5 +1,7 @@
 #include "answer/budget.h"
 
+#include <set>
+
 #include "base/error.h"
 
 namespace vsglbench {
@@ -17,11 +19,28 @@ std::string shading_of(const CaseResult& c) {
   return shading.empty() ? "exact" : shading;
 }
 
-bool same_image_size(const CaseResult& a, const CaseResult& b) {
-  for (const char* key : {"rsm", "width", "height"}) {
-    if (text(a, key) != text(b, key)) return false;
+// What describes how lights see and are seen, not what they are.
+bool is_of_visibility(const std::string& key) { return key == "visibility" || key == "light_clearance"; }
+
+// What steers SGs alone; exact BRDFs don't read it.
+bool is_of_lobes(const std::string& key) {
+  static const std::set<std::string> keys = {
+      "bias_reduction", "shading",  "lobe_filter", "diffuse",
+      "lobes",          "variance", "receiver",    "lambert_sharpness"};
+  return keys.contains(key);
+}
+
+// The keys that both have and in which they are not alike, of what makes the picture but for how the lights
+// were chosen: that all-texels does not have.
+std::vector<std::string> differing(const CaseResult& c, const CaseResult& texels, bool with_lobes) {
+  std::vector<std::string> out;
+  for (const auto& item : texels.parameters.items()) {
+    const std::string& key = item.key();
+    const auto own = c.parameters.find(key);
+    if (own == c.parameters.end() || is_of_visibility(key) || key == "shading") continue;
+    if ((with_lobes || !is_of_lobes(key)) && *own != item.value()) out.push_back(key);
   }
-  return true;
+  return out;
 }
 
 class Search {
@@ -31,18 +50,36 @@ class Search {
 
   const CaseResult* all_texels(const std::string& shading) const {
     return find([&](const CaseResult& c) {
-      return c.method == "all-texels" && text(c, "visibility") == "none" && shading_of(c) == shading &&
-             same_image_size(c, case_);
+      return is_texels(c, shading) && differing(case_, c, shading != "exact").empty();
     });
   }
-  // The case itself with another visibility.
+  // "all-texels, shading vsgl16, visibility none", and in which keys the one that is there differs.
+  std::string missing_texels(const std::string& shading) const {
+    const std::string out = fmt::format("all-texels, shading {}, visibility none", shading);
+    const CaseResult* like = find([&](const CaseResult& c) { return is_texels(c, shading); });
+    if (!like) return out;
+    std::vector<std::string> keys;
+    for (const std::string& key : differing(case_, *like, shading != "exact"))
+      keys.push_back(key + " " + text(case_, key.c_str()));
+    return fmt::format("{}, {}", out, fmt::join(keys, ", "));
+  }
+  // The case itself with another visibility, and where that is none, whatever its clearance.
   const CaseResult* seen_by(const std::string& visibility) const {
-    Json wanted = case_.parameters;
-    wanted["visibility"] = visibility;
-    return find([&](const CaseResult& c) { return c.method == case_.method && c.parameters == wanted; });
+    const auto rest = [&](Json parameters) {
+      parameters.erase("visibility");
+      if (visibility == "none") parameters.erase("light_clearance");
+      return parameters;
+    };
+    const Json wanted = rest(case_.parameters);
+    return find([&](const CaseResult& c) {
+      return c.method == case_.method && text(c, "visibility") == visibility && rest(c.parameters) == wanted;
+    });
   }
 
  private:
+  static bool is_texels(const CaseResult& c, const std::string& shading) {
+    return c.method == "all-texels" && text(c, "visibility") == "none" && shading_of(c) == shading;
+  }
   template <class F>
   const CaseResult* find(F matches) const {
     for (const CaseResult& c : report_.cases) {
@@ -62,10 +99,11 @@ void add(Budget* budget, const std::string& metric, const std::string& name, con
   BudgetPart part{name, "", missing, {}, {}};
   if (c) {
     const Estimate error = *error_of(*c, metric);
-    part = {name, c->id, "", error, error.value};
+    part = {name, c->id, "", error, {}};
+    if (budget->parts.empty()) part.increment = error.value;
     for (auto above = budget->parts.rbegin(); above != budget->parts.rend(); ++above) {
       if (!above->error) continue;
-      *part.increment -= above->error->value;
+      part.increment = error.value - above->error->value;
       break;
     }
   }
@@ -81,11 +119,9 @@ Budget error_budget(const Report& report, const CaseResult& c, const AnswerOptio
   const Search search(report, c, metric);
   const std::string shading = shading_of(c), visibility = text(c, "visibility");
   Budget budget{c.id, {}, {}};
-  add(&budget, metric, "RSM resolution", search.all_texels("exact"),
-      "all-texels, shading exact, visibility none");
+  add(&budget, metric, "RSM resolution", search.all_texels("exact"), search.missing_texels("exact"));
   if (shading != "exact")
-    add(&budget, metric, "SG lobes", search.all_texels(shading),
-        fmt::format("all-texels, shading {}, visibility none", shading));
+    add(&budget, metric, "SG lobes", search.all_texels(shading), search.missing_texels(shading));
   if (c.method != "all-texels")
     add(&budget, metric, "clustering", search.seen_by("none"), "this case with visibility none");
   if (visibility != "none")

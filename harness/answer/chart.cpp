@@ -126,8 +126,10 @@ std::string ms_text(double ms) { return fmt::format(fmt::runtime(ms < 100 ? "{:.
 
 std::string colour_of(size_t i) { return kColours[i % std::size(kColours)]; }
 
-std::string point_style(size_t i) {
-  return fmt::format("pointtype {} lc rgb '{}'", kPoints[i % std::size(kPoints)], colour_of(i));
+std::string point_style(size_t i) { return point_style(i, 0); }
+
+std::string point_style(size_t i, size_t k) {
+  return fmt::format("pointtype {} lc rgb '{}'", kPoints[(i + k) % std::size(kPoints)], colour_of(i));
 }
 
 std::vector<size_t> evenly(const std::vector<size_t>& list, size_t most) {

@@ -59,8 +59,10 @@ std::string chart_script(const Chart& chart, PlotFormat format);
 Chart front_chart(const ChartSource& source);
 // (b) the passes of these points; nothing where the time is no sum of passes.
 std::optional<Chart> passes_chart(const ChartSource& source, const std::vector<size_t>& points);
-// (c) error budgets of these points.
-Chart budget_chart(const ChartSource& source, const std::vector<size_t>& points);
+// (c) error budgets of these points; nothing where no part of any can be told from the others. `missing`:
+// what would have to be run for the parts that can't.
+std::optional<Chart> budget_chart(const ChartSource& source, const std::vector<size_t>& points,
+                                  std::vector<std::string>* missing);
 // (d), (e) error against the values of a key, a curve a method and choice of all else.
 std::optional<Chart> series_chart(const ChartSource& source, const std::string& key);
 
@@ -68,6 +70,8 @@ std::optional<Chart> series_chart(const ChartSource& source, const std::string& 
 
 // Colour and kind of point of the i-th method.
 std::string point_style(size_t i);
+// The k-th choice of settings of the i-th method: its colour, and another kind of point; of k = 0 as above.
+std::string point_style(size_t i, size_t k);
 std::string colour_of(size_t i);
 std::string ms_text(double ms);  // "1.07 ms", "2417 ms"
 // At most `most` of a list, evenly, with its first and last.

@@ -48,8 +48,12 @@ void add_parts(const ChartSource& source, const Budget& budget, Rows* rows) {
     const double to = part.error->value;
     const size_t row = rows->names.size();
     rows->names.push_back(fmt::format("{}", fmt::join(not_run, " + ")));
-    rows->bars[part.name].push_back({row, from, to});
-    add_label(rows, fmt::format("{:+.3g}", *part.increment), std::max(from, to), row);
+    if (part.increment) {
+      rows->bars[part.name].push_back({row, from, to});
+      add_label(rows, fmt::format("{:+.3g}", *part.increment), std::max(from, to), row);
+    } else {
+      add_label(rows, fmt::format("{}, can't be told apart", source.error_text(to)), 0, row);
+    }
     rows->most = std::max(rows->most, to);
     from = to;
     not_run.clear();
@@ -58,7 +62,6 @@ void add_parts(const ChartSource& source, const Budget& budget, Rows* rows) {
     add_label(rows, "not run", from, rows->names.size());
     rows->names.push_back(fmt::format("{}", fmt::join(not_run, " + ")));
   }
-  static_cast<void>(source);
 }
 
 void add_budget(const ChartSource& source, size_t point, Rows* rows) {
@@ -74,10 +77,14 @@ void add_budget(const ChartSource& source, size_t point, Rows* rows) {
 
 }  // namespace
 
-Chart budget_chart(const ChartSource& source, const std::vector<size_t>& points) {
+std::optional<Chart> budget_chart(const ChartSource& source, const std::vector<size_t>& points,
+                                  std::vector<std::string>* missing) {
   const std::vector<size_t> chosen = evenly(points, kMostBudgets);
   Rows rows;
   for (const size_t i : chosen) add_budget(source, i, &rows);
+  *missing = rows.missing;
+  const auto is_part = [](const auto& bar) { return bar.first != "the case"; };
+  if (std::ranges::none_of(rows.bars, is_part)) return std::nullopt;
   Chart c;
   c.kind = "budget";
   c.title = fmt::format("{}: where {} comes from", source.subject(), metric_title(source.options.metric));
@@ -89,7 +96,7 @@ Chart budget_chart(const ChartSource& source, const std::vector<size_t>& points)
       "errors "
       "of metrics do not add up in general"};
   if (!rows.missing.empty())
-    c.notes.push_back(fmt::format("not in the report, and so part of the bar whose name has a +: {}",
+    c.notes.push_back(fmt::format("not in the report, so that parts joined by a + can't be told apart: {}",
                                   fmt::join(rows.missing, "; ")));
   if (chosen.size() < points.size())
     c.notes.push_back(fmt::format("{} of {} cases, evenly by time", chosen.size(), points.size()));

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <set>
 
 #include "answer/chart.h"
 #include "answer/front.h"
@@ -20,12 +20,17 @@ constexpr size_t kMostBars = 300;    // points with intervals; of more, only the
 constexpr size_t kMostJoined = 150;  // points of which a method's are joined over N
 constexpr size_t kMostNamed = 12;    // points of the front
 constexpr double kApart = 17;        // pixels between two numbers
+constexpr size_t kMostKinds = 24;  // choices of settings with a mark of their own; of more, methods have one
+constexpr size_t kMostKindsOfOne = 12;  // of one method
+constexpr double kRow = 19;             // of the legend
+constexpr size_t kKindsWithRoom = 10;   // on a page of the usual height
 
 class FrontChart {
  public:
   explicit FrontChart(const ChartSource& source)
       : source_(source), group_(source.group), front_(front_of(group_)), all_(group_.points.size()) {
     std::iota(all_.begin(), all_.end(), size_t{0});
+    choose_kinds();
     errors_ = log_errors(group_, all_);
     double least = group_.points.front().ms.value, most = least;
     for (const Point& p : group_.points) {
@@ -41,7 +46,11 @@ class FrontChart {
     c.kind = "front";
     c.title = fmt::format("{}: {} against time", source_.subject(), metric_title(source_.options.metric));
     c.subtitle = source_.circumstances();
-    make_room(&c, front_texts(), 40);
+    std::vector<std::string> beside = front_texts();
+    for (const Kind& kind : kinds_) beside.push_back("xxxxx" + kind.name);  // and its mark
+    make_room(&c, beside, 40);
+    if (kinds_.size() > kKindsWithRoom)
+      c.height += static_cast<uint32_t>(kRow * static_cast<double>(kinds_.size() - kKindsWithRoom));
     c.notes = notes();
     const PlotPlace at = plot_place(c);
     c.commands = x_.commands + y_.commands +
@@ -66,8 +75,43 @@ class FrontChart {
                          : "bars: 95 % intervals of error (over seeds) and time (over frames)");
     for (std::string& note : error_notes(errors_)) out.push_back(std::move(note));
     if (const std::string note = floor_note(source_, y_); !note.empty()) out.push_back(note);
+    if (!told_apart_)
+      out.push_back(fmt::format(
+          "a mark is a method: {} choices of its settings but N have no room for their own", choices_));
     if (!source_.shared().empty()) out.push_back(source_.shared());
     return out;
+  }
+
+  // A method with a choice of all settings but N, or where there are too many of these, a method.
+  struct Kind {
+    std::string name;
+    size_t method = 0, choice = 0;  // its place, and which of its choices
+    std::vector<size_t> points;
+  };
+
+  void choose_kinds() {
+    std::map<std::pair<size_t, std::string>, std::vector<size_t>> by_name;
+    std::map<size_t, size_t> of_method;
+    for (const size_t i : all_) {
+      const size_t method = source_.place(group_.points[i].result->method);
+      auto& points = by_name[{method, source_.label_without(i, "N")}];
+      of_method[method] += points.empty() ? 1 : 0;
+      points.push_back(i);
+    }
+    choices_ = by_name.size();
+    told_apart_ = choices_ <= kMostKinds && std::ranges::all_of(of_method, [](const auto& count) {
+                    return count.second <= kMostKindsOfOne;
+                  });
+    std::map<size_t, size_t> met;
+    for (const auto& [key, points] : by_name) {
+      const auto& [method, name] = key;
+      const size_t choice = told_apart_ ? met[method]++ : 0;
+      if (told_apart_ || kinds_.empty() || kinds_.back().method != method)
+        kinds_.push_back(
+            {told_apart_ ? name : group_.points[points.front()].result->method, method, choice, {}});
+      auto& all = kinds_.back().points;
+      all.insert(all.end(), points.begin(), points.end());
+    }
   }
 
   // An error of 0 just above the lower edge, where its mark is seen.
@@ -84,25 +128,17 @@ class FrontChart {
                        zero ? error : std::max(p.error.ci95.hi, error));
   }
 
-  std::vector<std::string> methods() const {
-    std::set<std::string> named;
-    for (const Point& p : group_.points) named.insert(p.result->method);
-    std::vector<std::string> out(named.begin(), named.end());
-    std::ranges::sort(out, {}, [&](const std::string& m) { return source_.place(m); });
-    return out;
-  }
-
-  // A block of points a method, one of errors of 0, the front and its steps, and each series over N.
+  // A block of points a kind, one of errors of 0, the front and its steps, and each series over N.
   std::string data() {
     std::string out;
-    for (const std::string& method : methods()) {
+    for (size_t k = 0; k < kinds_.size(); ++k) {
       std::string rows;
-      for (const Point& p : group_.points) {
-        if (p.result->method == method && p.error.value > 0) rows += row(p);
+      for (const size_t i : kinds_[k].points) {
+        if (group_.points[i].error.value > 0) rows += row(group_.points[i]);
       }
       if (rows.empty()) continue;
-      out += fmt::format("$m{} << END\n{}END\n", source_.place(method), rows);
-      drawn_.push_back(method);
+      out += fmt::format("$m{} << END\n{}END\n", k, rows);
+      drawn_.push_back(k);
     }
     out += "$zero << END\n";
     for (const Point& p : group_.points) {
@@ -137,15 +173,16 @@ class FrontChart {
     for (size_t k = 0; k < joined_.size(); ++k)
       out.push_back(fmt::format("$n{} using 1:2 with lines lw 1 lc rgb '#70{}' notitle", k,
                                 colour_of(joined_[k]).substr(1)));
-    for (const std::string& method : drawn_) {
-      const size_t i = source_.place(method);
-      const std::string title = fmt::format("title {} noenhanced", Gnuplot::quoted(method));
+    for (const size_t k : drawn_) {
+      const Kind& kind = kinds_[k];
+      const std::string style = point_style(kind.method, kind.choice);
+      const std::string title = fmt::format("title {} noenhanced", Gnuplot::quoted(kind.name));
       if (many()) {
-        out.push_back(fmt::format("$m{} using 1:2 with points {} pointsize 0.5 notitle", i, point_style(i)));
-        out.push_back(fmt::format("NaN with points {} pointsize 1.2 {}", point_style(i), title));
+        out.push_back(fmt::format("$m{} using 1:2 with points {} pointsize 0.5 notitle", k, style));
+        out.push_back(fmt::format("NaN with points {} pointsize 1.2 {}", style, title));
       } else {
-        out.push_back(fmt::format("$m{} using 1:2:3:4:5:6 with xyerrorbars {} pointsize 1.2 lw 1.2 {}", i,
-                                  point_style(i), title));
+        out.push_back(fmt::format("$m{} using 1:2:3:4:5:6 with xyerrorbars {} pointsize 1.2 lw 1.2 {}", k,
+                                  style, title));
       }
     }
     if (errors_.zero > 0)
@@ -174,7 +211,7 @@ class FrontChart {
     const Font font(13);
     const std::vector<size_t> named = evenly(front_, kMostNamed);
     const std::vector<std::string> texts = front_texts();
-    double list = at.top + 34 + 19 * static_cast<double>(drawn_.size());
+    double list = at.top + 34 + kRow * static_cast<double>(drawn_.size());
     std::string out = page_label(chart,
                                  named.size() < front_.size()
                                      ? fmt::format("front, {} of its {} points:", named.size(), front_.size())
@@ -194,7 +231,7 @@ class FrontChart {
       before = label;
       out += fmt::format("set label '{}' at screen {:.6f}, screen {:.6f} right font small front\n", k + 1,
                          label.x / chart.width, 1 - label.y / chart.height);
-      list += 19;
+      list += kRow;
       out += page_label(chart, font.fit(texts[k], chart.right - 34), at.right + 22, list);
     }
     return out;
@@ -205,8 +242,11 @@ class FrontChart {
   std::vector<size_t> front_, all_;
   LogErrors errors_;
   LogAxis x_, y_;
-  std::vector<std::string> drawn_;  // methods with a point
-  std::vector<size_t> joined_;      // places of the methods of series over N
+  std::vector<Kind> kinds_;     // by method
+  size_t choices_ = 0;          // of settings but N, of all methods
+  bool told_apart_ = true;      // each has a mark
+  std::vector<size_t> drawn_;   // kinds with a point
+  std::vector<size_t> joined_;  // places of the methods of series over N
 };
 
 }  // namespace

@@ -51,7 +51,12 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST_F(ChartTest, DrawsEveryKindAndNamesItsFiles) {
-  const DrawnCharts drawn = draw_charts(small(), {folder_, {}, "", {}});
+  MadeReport r(1, 0.01, 0.1);
+  r.report = small();
+  MadeCase texels = made("all-texels", 1, 9, 1);
+  texels.parameters = {{"K", 1.0}, {"shading", "exact"}, {"visibility", "none"}};
+  r.add(texels);
+  const DrawnCharts drawn = draw_charts(r.report, {folder_, {}, "", {}});
   EXPECT_EQ(names(drawn), (std::vector<std::string>{
                               "hall@north-none-front-smape.svg", "hall@north-none-front-smape.png",
                               "hall@north-none-passes-smape.svg", "hall@north-none-passes-smape.png",
@@ -69,7 +74,7 @@ TEST_F(ChartTest, DrawsEveryKindAndNamesItsFiles) {
 TEST_F(ChartTest, APointAloneIsDrawn) {
   MadeReport r(1, 0, 0.1);
   r.add(made("vpl", 64, 1, 10));
-  EXPECT_EQ(draw_charts(r.report, {folder_, {}, "", {}}).paths.size(), 6u);  // nothing is swept
+  EXPECT_EQ(draw_charts(r.report, {folder_, {}, "", {}}).paths.size(), 4u);  // nothing is swept
 }
 
 TEST_F(ChartTest, WithoutPointsItSaysSo) {
@@ -102,10 +107,7 @@ TEST_F(ChartTest, ErrorsThatALogarithmCannotShowAreSaid) {
   EXPECT_TRUE(contains(front_script(r), "cases with an error of 0"));
   r.cases[1].accuracy->smape.ci95 = Interval{-3, 20};
   EXPECT_TRUE(contains(front_script(r), "are cut there: 1"));
-  r.cases[2].accuracy->smape.heavy_tailed = true;
-  r.cases[2].accuracy->smape.median = 3;
-  r.cases[2].accuracy->smape.least = 2;
-  r.cases[2].accuracy->smape.largest = 50;
+  r.cases[2].seeds[0].errors.smape *= 100;
   EXPECT_TRUE(contains(front_script(r), "from the least seed to the largest: 1"));
   Gnuplot().run(front_script(r));
   for (CaseResult& c : r.cases) c.accuracy->smape.value = 0;
@@ -136,7 +138,7 @@ TEST_F(ChartTest, TheHostsRaysAreNoPasses) {
   std::vector<std::string> remarks;
   for (const Chart& c : charts_of(ChartSource(r, groups[0], options), {0}, &remarks))
     EXPECT_NE(c.kind, "passes");
-  ASSERT_EQ(remarks.size(), 1u);
+  ASSERT_EQ(remarks.size(), 2u);  // and all-texels is missing
   EXPECT_TRUE(contains(remarks[0], "is no sum of passes"));
 }
 
@@ -161,8 +163,55 @@ TEST_F(ChartTest, BudgetSaysWhatWasNotRun) {
   const Report r = small();
   const AnswerOptions options;
   const auto groups = point_groups(r, options);
-  const Chart c = budget_chart(ChartSource(r, groups[0], options), front_of(groups[0]));
-  EXPECT_TRUE(contains(chart_script(c, PlotFormat::svg), "all-texels, shading exact, visibility none"));
+  std::vector<std::string> missing;
+  EXPECT_FALSE(budget_chart(ChartSource(r, groups[0], options), front_of(groups[0]), &missing));
+  EXPECT_EQ(missing, std::vector<std::string>{"all-texels, shading exact, visibility none"});
+  const DrawnCharts drawn = draw_charts(r, {folder_, {}, "", {}});
+  ASSERT_EQ(drawn.remarks.size(), 1u);
+  EXPECT_TRUE(contains(drawn.remarks[0], "no budget; it needs all-texels, shading exact, visibility none"));
+
+  // With SG lobes missing, what they and the clusters cost together can be told.
+  MadeReport some(1, 0, 0);
+  MadeCase texels = made("all-texels", 1, 9, 4), vsgls = made("fis", 64, 1, 10);
+  texels.parameters = {{"K", 1.0}, {"shading", "exact"}, {"visibility", "none"}};
+  vsgls.parameters["shading"] = "vsgl16";
+  some.add(texels);
+  some.add(vsgls);
+  const auto with = point_groups(some.report, options);
+  const auto chart = budget_chart(ChartSource(some.report, with[0], options), {0}, &missing);
+  ASSERT_TRUE(chart);
+  const std::string script = chart_script(*chart, PlotFormat::svg);
+  for (const char* text :
+       {"SG lobes + clustering", "'+4'", "'+6'", "all-texels, shading vsgl16, visibility none"})
+    EXPECT_TRUE(contains(script, text)) << text << "\n" << script;
+}
+
+// Two series of one method have marks and names of their own, as long as there is room.
+TEST_F(ChartTest, TheFrontTellsSeriesOfOneMethodApart) {
+  const auto marks = [](const std::string& script, const std::string& name) {
+    const size_t title = script.find("title '" + name), at = script.rfind("pointtype ", title);
+    return title == std::string::npos ? "none" : script.substr(at, script.find(" pointsize", at) - at);
+  };
+  MadeReport r(1, 0.01, 0.1);
+  for (const int n : {64, 256}) {
+    for (const double k : {1.0, 4.0}) {
+      MadeCase c = made("mfis", n, n * k, 100 / k);
+      c.parameters["K"] = k;
+      r.add(c);
+    }
+    r.add(made("vpl", n, n, 500));
+  }
+  const std::string script = front_script(r.report);
+  const std::string one = marks(script, "mfis K=1.0"), four = marks(script, "mfis K=4.0");
+  EXPECT_NE(one, "none") << script;
+  EXPECT_NE(four, "none");
+  EXPECT_NE(one, four);
+  EXPECT_EQ(one.substr(one.find("lc ")), four.substr(four.find("lc ")));  // the method's colour
+  EXPECT_FALSE(contains(script, "a mark is a method"));
+  Gnuplot().run(script);
+  const std::string many = front_script(large_report(300));
+  EXPECT_TRUE(contains(many, "a mark is a method"));
+  EXPECT_TRUE(contains(many, "title 'vpl'"));
 }
 
 }  // namespace

@@ -77,7 +77,13 @@ std::vector<Chart> charts_of(const ChartSource& source, const std::vector<size_t
     else
       remarks->push_back(fmt::format("{}: the time '{}' is no sum of passes, hence no chart of them",
                                      source.subject(), source.options.time));
-    out.push_back(budget_chart(source, points));
+    std::vector<std::string> missing;
+    if (auto budget = budget_chart(source, points, &missing))
+      out.push_back(std::move(*budget));
+    else
+      remarks->push_back(
+          fmt::format("{}: no part of an error can be told from the others, hence no budget; it needs {}",
+                      source.subject(), fmt::join(missing, "; ")));
   }
   for (const std::string& key : varied_keys(source.group)) {
     if (auto series = series_chart(source, key)) out.push_back(std::move(*series));

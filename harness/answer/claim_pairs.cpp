@@ -55,27 +55,43 @@ std::optional<double> seed_value(const SeedResult& s, const std::string& metric)
   throw std::logic_error("no metric " + metric);
 }
 
+// By seed. Of the static flicker, which is one number for all seeds, how far each seed's image is from the
+// mean of all: the mean of |x - x̄| where `static` has the root of the mean of its square.
+std::vector<double> temporal_values(const Temporal& t, const std::string& metric) {
+  if (metric == "temporal.derivative") return t.derivative.values;
+  if (metric == "temporal.static") return t.still ? t.still->series : std::vector<double>{};
+  if (metric != "temporal.detail") throw std::logic_error("no metric " + metric);
+  // Where one seed has no detail left there is no ratio, and those that have some would tell but half.
+  if (!t.detail || std::ranges::any_of(t.detail->values, [](double v) { return v <= 0; })) return {};
+  return t.detail->values;
+}
+
+std::map<uint64_t, double> logs_of(const CaseResult& c, const std::string& metric) {
+  std::map<uint64_t, double> out;
+  if (is_temporal(metric)) {
+    const auto values = c.temporal ? temporal_values(*c.temporal, metric) : std::vector<double>{};
+    for (uint64_t seed = 0; seed < values.size(); ++seed) {
+      if (values[seed] > 0) out[seed] = std::log(values[seed]);
+    }
+    if (metric == "temporal.static" && out.size() < 3) out.clear();
+    return out;
+  }
+  for (const SeedResult& s : c.seeds) {
+    const auto value = seed_value(s, metric);
+    if (value && *value > 0) out[s.seed] = std::log(*value);
+  }
+  return out;
+}
+
 ClaimCase trial_of(const CaseResult& c, const PaperClaim& claim, const std::string& metric) {
-  ClaimCase t{&c, {}, {}};
+  ClaimCase t{&c, {}, {}, metric == "temporal.static"};
   const std::string time = is_time(metric) ? metric.substr(5) : "method";
   if (is_time(metric) || claim.equal_time) {
     const auto ms = time_of(c, time);
     if (ms && ms->median > 0) t.ms = Estimate{ms->median, ms->ci95};
   }
-  if (is_time(metric)) return t;
-  for (const SeedResult& s : c.seeds) {
-    const auto value = seed_value(s, metric);
-    if (value && *value > 0) t.logs[s.seed] = std::log(*value);
-  }
+  if (!is_time(metric)) t.logs = logs_of(c, metric);
   return t;
-}
-
-std::optional<PairRatio> over_seeds(std::map<uint64_t, double> by_seed) {
-  if (by_seed.size() < 2) return std::nullopt;
-  std::vector<double> logs;
-  for (const auto& [seed, log] : by_seed) logs.push_back(log);
-  const MeanEstimate mean = mean_ci95(logs);
-  return PairRatio{std::move(by_seed), {mean.mean, mean.ci95}};
 }
 
 std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint64_t, double>& b) {
@@ -84,7 +100,9 @@ std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint
     const auto other = b.find(seed);
     if (other != b.end()) logs[seed] = log - other->second;
   }
-  return over_seeds(std::move(logs));
+  const auto mean = mean_of_seeds(logs, a.one_mean);
+  if (!mean) return std::nullopt;
+  return PairRatio{std::move(logs), *mean, a.one_mean};
 }
 
 // What is noise in a time may be in either direction.
@@ -94,7 +112,8 @@ std::optional<PairRatio> ratio_of_times(const ClaimCase& a, const ClaimCase& b, 
   return PairRatio{
       {},
       {std::log(a.ms->value / b.ms->value),
-       {std::log(a.ms->ci95.lo / b.ms->ci95.hi) - slack, std::log(a.ms->ci95.hi / b.ms->ci95.lo) + slack}}};
+       {std::log(a.ms->ci95.lo / b.ms->ci95.hi) - slack, std::log(a.ms->ci95.hi / b.ms->ci95.lo) + slack}},
+      false};
 }
 
 // Logarithms of the error of a ladder, by time, at a time between its ends; nothing outside, but within
@@ -171,7 +190,8 @@ class Matching {
     std::set<std::string> out;
     for (const auto& item : c.parameters.items()) {
       const std::string& key = item.key();
-      if (!claim_.a.contains(key) && !claim_.b.contains(key) && !(claim_.equal_time && key == "N"))
+      if (!claim_.a.contains(key) && !claim_.b.contains(key) && key != claim_.step &&
+          !(claim_.equal_time && key == "N"))
         out.insert(key);
     }
     return out;
@@ -209,15 +229,46 @@ std::vector<std::vector<const ClaimCase*>> ladders(const std::vector<const Claim
   return out;
 }
 
+// Of cases that are alike in all but the parameter, those with its next smaller value.
+std::vector<const ClaimCase*> step_below(const std::string& key, const CaseResult& c,
+                                         const std::vector<const ClaimCase*>& others) {
+  const auto value = [&](const CaseResult& of) { return of.parameters.at(key).get<double>(); };
+  std::vector<const ClaimCase*> out;
+  for (const ClaimCase* other : others) {
+    const double below = value(*other->result);
+    if (!(below < value(c)) || (!out.empty() && below < value(*out.front()->result))) continue;
+    if (!out.empty() && below > value(*out.front()->result)) out.clear();
+    out.push_back(other);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool is_time(const std::string& metric) { return metric.starts_with("time:"); }
+bool is_temporal(const std::string& metric) { return metric.starts_with("temporal."); }
+
+std::optional<Estimate> mean_of_seeds(const std::map<uint64_t, double>& logs, bool one_mean) {
+  if (logs.size() < (one_mean ? 3 : 2)) return std::nullopt;
+  std::vector<double> samples;
+  for (const auto& [seed, log] : logs) samples.push_back(log);
+  const MeanEstimate mean = mean_ci95(samples);
+  if (!one_mean) return Estimate{mean.mean, mean.ci95};
+  const auto count = static_cast<double>(samples.size());
+  const int degrees = static_cast<int>(samples.size()) - 2;
+  const double wider = student_t95(degrees) / student_t95(degrees + 1) * std::sqrt(count / (count - 1));
+  const double half = 0.5 * mean.ci95.width() * wider;
+  return Estimate{mean.mean, {mean.mean - half, mean.mean + half}};
+}
 
 Sides sides_of(const Report& report, const PaperClaim& claim, const std::string& scene,
                const std::string& metric) {
   Sides out;
   for (const CaseResult& c : report.cases) {
     if (c.scene != scene || c.status != Status::ok || !matches(c, claim.both) || !has_what_differs(c, claim))
+      continue;
+    if (!claim.step.empty() &&
+        !(c.parameters.contains(claim.step) && c.parameters.at(claim.step).is_number()))
       continue;
     if (matches(c, claim.a)) out.a.push_back(trial_of(c, claim, metric));
     if (matches(c, claim.b)) out.b.push_back(trial_of(c, claim, metric));
@@ -230,7 +281,8 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
   std::vector<PairRatio> out;
   Matching matching(claim, sides.b);
   for (const ClaimCase& a : sides.a) {
-    const auto others = matching.of(*a.result);
+    auto others = matching.of(*a.result);
+    if (!claim.step.empty()) others = step_below(claim.step, *a.result, others);
     if (claim.equal_time) {
       if (!a.ms) continue;
       for (const auto& ladder : ladders(others)) {

@@ -36,6 +36,7 @@ Truth truth_of(const PaperClaim& claim, const Interval& log) {
 Estimate pooled(const std::vector<PairRatio>& pairs) {
   const auto count = static_cast<double>(pairs.size());
   Estimate mean;
+  const bool one_mean = std::ranges::any_of(pairs, &PairRatio::one_mean);
   std::map<uint64_t, std::pair<double, size_t>> sums;
   for (const PairRatio& p : pairs) {
     mean.value += p.log.value / count;
@@ -47,11 +48,9 @@ Estimate pooled(const std::vector<PairRatio>& pairs) {
     }
   }
   std::erase_if(sums, [&](const auto& s) { return s.second.second < pairs.size(); });
-  if (sums.size() < 2) return mean;
-  std::vector<double> logs;
-  for (const auto& [seed, sum] : sums) logs.push_back(sum.first);
-  const MeanEstimate over = mean_ci95(logs);
-  return {over.mean, over.ci95};
+  std::map<uint64_t, double> logs;
+  for (const auto& [seed, sum] : sums) logs[seed] = sum.first;
+  return mean_of_seeds(logs, one_mean).value_or(mean);
 }
 
 Ruling ruling_of(Truth whole, size_t holding, size_t contrary) {
@@ -62,14 +61,25 @@ Ruling ruling_of(Truth whole, size_t holding, size_t contrary) {
 }
 
 std::string what_is_missing(const Sides& sides, const PaperClaim& claim, const std::string& metric) {
-  const std::string both = claim.both.empty() ? "" : " " + settings_text(claim.both);
-  if (sides.a.empty()) return "no case of " + settings_text(claim.a) + both;
-  if (sides.b.empty()) return "no case of " + settings_text(claim.b) + both;
+  for (const auto& [side, settings] : {std::pair(&sides.a, &claim.a), std::pair(&sides.b, &claim.b)}) {
+    if (!side->empty()) continue;
+    const std::string gap = settings->empty() || claim.both.empty() ? "" : " ";
+    return "no case of " + settings_text(*settings) + gap + settings_text(claim.both) +
+           (claim.step.empty() ? "" : " with " + claim.step);
+  }
+  const auto still = [](const ClaimCase& t) { return !t.result->temporal; };
+  if (is_temporal(metric) && (std::ranges::all_of(sides.a, still) || std::ranges::all_of(sides.b, still)))
+    return "was not measured in motion";
   const auto measured = [&](const ClaimCase& t) {
     return is_time(metric) ? t.ms.has_value() : t.logs.size() > 1;
   };
   if (std::ranges::none_of(sides.a, measured) || std::ranges::none_of(sides.b, measured))
-    return fmt::format("{} was not measured{}", metric, is_time(metric) ? "" : " for two seeds");
+    return fmt::format("{} was not measured{}", metric,
+                       is_time(metric)               ? ""
+                       : metric == "temporal.static" ? " for three seeds"
+                       : metric == "temporal.detail" ? " above 0 for two seeds"
+                                                     : " for two seeds");
+  if (!claim.step.empty()) return "no two cases alike in all but " + claim.step;
   return claim.equal_time ? "no two cases alike in all else whose times meet"
                           : "no two cases alike in all else";
 }
@@ -136,6 +146,7 @@ std::vector<PaperClaim> load_claims(const std::filesystem::path& file) {
     c.both = j.value("both", Json::object());
     c.a = j.at("a");
     c.b = j.at("b");
+    c.step = j.value("step", "");
     c.says = j.at("says") == "less" ? Says::less : j.at("says") == "more" ? Says::more : Says::no_more;
     c.factor = j.value("factor", 1.0);
     c.equal_time = j.value("at", "equal N") == "equal time";

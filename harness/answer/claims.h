@@ -1,4 +1,4 @@
-// What papers claim of errors and times, tried on a report. The claims are data: claims.json.
+// What papers claim of errors, flicker and times, tried on a report. The claims are data: claims.json.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +17,16 @@ struct PaperClaim {
   // Settings that a case must have to be one of each side, "method" or parameters, each a value or a list.
   // What neither side names is the same in both cases of a pair, as far as both have it.
   Json both, a, b;
+  // A parameter of numbers: a has one of its values and b the next smaller that the report has in a case
+  // alike in all else, so that a list 1, 2, 4 makes two pairs. Empty: none.
+  std::string step;
   Says says = Says::less;
   double factor = 1;  // of the ratio: "less" than that
   bool equal_time =
       false;  // b's error is read off its cases over N, at a's time, in log-log; else N is the same
-  std::vector<std::string>
-      metrics;  // errors of image/metrics.h, flip_p99, p99_9, or "time:" and a time of report/noise.h
+  // Errors of image/metrics.h, flip_p99, p99_9; "temporal." and derivative, static or detail; "time:" and a
+  // time of report/noise.h.
+  std::vector<std::string> metrics;
   std::vector<std::string> scenes;  // globs
 };
 

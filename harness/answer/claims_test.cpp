@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "answer/claim_pairs.h"
 #include "answer/made_report.h"
 #include "base/file.h"
 
@@ -151,6 +152,130 @@ TEST(Claims, TimesAreComparedBeyondTheirNoise) {
   r.report.aa = {{"box", "x", "y", {{"method", {1, {0.9, 1.1}}, 0.1}}}};
   EXPECT_EQ(only_row(r.report, more).ruling, Ruling::undecided);
   EXPECT_EQ(only_row(r.report, no_more).ruling, Ruling::undecided);
+}
+
+MadeCase moving(const std::string& method, double k, double flicker, double detail = 1) {
+  MadeCase c = made(method, 64, 10);
+  c.parameters["K"] = k;
+  c.flicker = flicker;
+  c.detail = detail;
+  return c;
+}
+
+PaperClaim flicker_claim(const std::string& metric) {
+  PaperClaim c = claim_of({{"method", "mfis"}}, {{"method", "fis"}});
+  c.metrics = {metric};
+  return c;
+}
+
+// Seeds move both methods alike by 30 %.
+TEST(Claims, FlickerIsComparedSeedBySeedAtEqualK) {
+  for (const char* metric : {"temporal.derivative", "temporal.static"}) {
+    for (const auto& [factor, ruling] : std::map<double, Ruling>{
+             {0.9, Ruling::holds}, {1.0, Ruling::does_not_hold}, {1.1, Ruling::does_not_hold}}) {
+      MadeReport r(1, 0, 0.3);
+      for (const double k : {1.0, 4.0}) {
+        r.add(moving("mfis", k, factor / k));
+        r.add(moving("fis", k, 1 / k));
+      }
+      const ClaimRow row = only_row(r.report, flicker_claim(metric));
+      EXPECT_EQ(row.ruling, ruling) << metric << factor;
+      EXPECT_EQ(row.pairs, 2u);
+      EXPECT_NEAR(row.ratio, factor, 1e-9);
+    }
+  }
+}
+
+// Without effect, and with noise of each case's own, nothing is said.
+TEST(Claims, FlickerWithoutEffectIsUndecided) {
+  for (const char* metric : {"temporal.derivative", "temporal.static"}) {
+    size_t said = 0;
+    for (uint64_t trial = 0; trial < 100; ++trial) {
+      MadeReport r(1, 0, 0);
+      std::mt19937_64 random(trial);
+      std::normal_distribution<> noise(0, 0.1);
+      for (const char* method : {"mfis", "fis"}) {
+        Temporal& t = *r.add(moving(method, 1, 1)).temporal;
+        for (double& v : t.derivative.values) v *= std::exp(noise(random));
+        for (double& v : t.still->series) v *= std::exp(noise(random));
+      }
+      said += only_row(r.report, flicker_claim(metric)).ruling != Ruling::undecided;
+    }
+    EXPECT_LE(said, 10u) << metric;
+  }
+}
+
+// K of 1, 2, 4 and 16 make three pairs of each method, not six.
+TEST(Claims, StepsCompareEachValueWithTheNextSmaller) {
+  MadeReport r(1, 0, 0.3);
+  for (const char* method : {"mfis", "fis"}) {
+    for (const double k : {1.0, 2.0, 4.0, 16.0}) r.add(moving(method, k, 1 / k, 1 / std::sqrt(k)));
+  }
+  r.add(made("vpl", 64, 10)).temporal = r.report.cases.front().temporal;  // has no K
+  PaperClaim claim = claim_of(Json::object(), Json::object());
+  claim.step = "K";
+  claim.metrics = {"temporal.derivative"};
+  const ClaimRow row = only_row(r.report, claim);
+  EXPECT_EQ(row.ruling, Ruling::holds);
+  EXPECT_EQ(row.pairs, 6u);
+  EXPECT_NEAR(row.lowest, 0.25, 1e-9);
+  EXPECT_NEAR(row.highest, 0.5, 1e-9);
+  claim.says = Says::more;
+  EXPECT_EQ(only_row(r.report, claim).ruling, Ruling::does_not_hold);
+  claim.says = Says::less;
+  claim.metrics = {"temporal.detail"};
+  claim.both = {{"method", "fis"}};
+  EXPECT_EQ(only_row(r.report, claim).pairs, 3u);
+  EXPECT_EQ(only_row(r.report, claim).ruling, Ruling::holds);
+  r.report.cases[6].temporal->detail->values[0] = -0.1;  // fis of K = 4: no pair of it has a ratio
+  EXPECT_EQ(only_row(r.report, claim).pairs, 1u);
+  claim.step = "k";
+  EXPECT_EQ(only_row(r.report, claim).why, "no case of fis with k");
+}
+
+TEST(Claims, SaysWhatOfMotionIsMissing) {
+  MadeReport r(1, 0, 0.3);
+  r.add(made("mfis", 64, 10));
+  r.add(made("fis", 64, 10));
+  for (const char* metric : {"temporal.derivative", "temporal.static", "temporal.detail"})
+    EXPECT_EQ(only_row(r.report, flicker_claim(metric)).why, "was not measured in motion");
+  MadeReport two(1, 0, 0.3, 16, 2);
+  two.add(moving("mfis", 1, 0.5));
+  two.add(moving("fis", 1, 1));
+  EXPECT_EQ(only_row(two.report, flicker_claim("temporal.derivative")).pairs, 1u);
+  EXPECT_EQ(only_row(two.report, flicker_claim("temporal.static")).why,
+            "temporal.static was not measured for three seeds");
+  two.report.cases[0].temporal->derivative.values.clear();  // a report of old
+  EXPECT_EQ(only_row(two.report, flicker_claim("temporal.derivative")).why,
+            "temporal.derivative was not measured for two seeds");
+}
+
+// Deviations from the mean of all are not independent: the interval must still hold 1 in 95 % of all cases.
+TEST(Claims, TheIntervalOfStaticFlickerHoldsTheTruth) {
+  for (const size_t seeds : {3, 4, 8}) {
+    size_t held = 0;
+    for (uint64_t trial = 0; trial < 1000; ++trial) {
+      std::mt19937_64 random(trial);
+      std::normal_distribution<> normal;
+      std::map<uint64_t, double> logs;
+      for (const double sign : {1.0, -1.0}) {
+        std::vector<std::vector<double>> images(seeds, std::vector<double>(30));
+        std::vector<double> mean(30, 0);
+        for (auto& image : images) {
+          for (size_t i = 0; i < image.size(); ++i)
+            mean[i] += (image[i] = normal(random)) / static_cast<double>(seeds);
+        }
+        for (size_t s = 0; s < seeds; ++s) {
+          double sum = 0;
+          for (size_t i = 0; i < mean.size(); ++i) sum += std::abs(images[s][i] - mean[i]);
+          logs[s] += sign * std::log(sum);
+        }
+      }
+      held += mean_of_seeds(logs, true)->ci95.contains(0);
+    }
+    EXPECT_GE(held, 935u) << seeds;
+  }
+  EXPECT_FALSE(mean_of_seeds({{0, 1}, {1, 1}}, true));
 }
 
 TEST(Claims, TheListThatComesWithTheProgrammeIsSoundAndCitesItsPapers) {

@@ -9,9 +9,10 @@ namespace {
 
 // "fis|mfis K=1 beside vpl, at equal N: the ratio must be below 1"
 std::string pair_text(const PaperClaim& c) {
-  std::string out = settings_text(c.a) + " beside " + settings_text(c.b);
+  const std::string step = c.step.empty() ? "" : c.step + " beside the next smaller " + c.step;
+  std::string out = c.step.empty() ? settings_text(c.a) + " beside " + settings_text(c.b) : step;
   if (!c.both.empty()) out += ", both " + settings_text(c.both);
-  out += c.equal_time ? ", at equal time" : c.a.contains("N") ? "" : ", at equal N";
+  out += c.equal_time ? ", at equal time" : c.a.contains("N") || c.step == "N" ? "" : ", at equal N";
   return out + fmt::format("; the ratio must be {} {:.3g}",
                            c.says == Says::less   ? "below"
                            : c.says == Says::more ? "above"
@@ -23,13 +24,19 @@ std::string ratio_text(const ClaimRow& r) {
   return r.pairs == 0 ? "" : fmt::format("{:.3g} [{:.3g}, {:.3g}]", r.ratio, r.ci95.lo, r.ci95.hi);
 }
 
-// "5 of 6, 1 contrary, 0.61 … 1.2"
+// "6 pairs, 0.61 … 1.2: 4 as said, 1 contrary, 1 open", by what each shows alone.
 std::string pairs_text(const ClaimRow& r) {
   if (r.pairs == 0) return r.why;
-  std::string out = fmt::format("{} of {}", r.holding, r.pairs);
-  if (r.contrary > 0) out += fmt::format(", {} contrary", r.contrary);
-  if (r.pairs > 1) out += fmt::format(", {:.3g} … {:.3g}", r.lowest, r.highest);
-  return out;
+  if (r.pairs == 1) return "1 pair";
+  std::vector<std::string> parts;
+  const auto add = [&](size_t count, const char* what) {
+    if (count > 0)
+      parts.push_back(fmt::format("{} {}", count == r.pairs ? "all" : std::to_string(count), what));
+  };
+  add(r.holding, "as said");
+  add(r.contrary, "contrary");
+  add(r.pairs - r.holding - r.contrary, "open");
+  return fmt::format("{} pairs, {:.3g} … {:.3g}: {}", r.pairs, r.lowest, r.highest, fmt::join(parts, ", "));
 }
 
 // "holds in 3, undecided in 1 of 4"
@@ -57,8 +64,10 @@ std::string terminal(const TriedClaim& tried) {
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "    " + why + "\n";
   size_t scene = 5;
   for (const ClaimRow& r : tried.rows) scene = std::max(scene, r.scene.size());
+  out += fmt::format("    {:<{}}  {:<19}  {:<13}  {:<24}  {}\n", "scene", scene, "metric", "claim",
+                     "ratio [95 %]", "pairs, each alone");
   for (const ClaimRow& r : tried.rows) {
-    out += fmt::format("    {:<{}}  {:<13}  {:<13}  {:<24}  {}\n", printable(r.scene), scene, r.metric,
+    out += fmt::format("    {:<{}}  {:<19}  {:<13}  {:<24}  {}\n", printable(r.scene), scene, r.metric,
                        name(r.ruling), ratio_text(r), pairs_text(r));
   }
   return out;
@@ -68,7 +77,7 @@ std::string markdown(const TriedClaim& tried) {
   std::string out = fmt::format("**{}**: {}. {} {}\n\n{}.\n\n", tried.claim.name, summary(tried),
                                 tried.claim.text, tried.claim.source, pair_text(tried.claim));
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
-  out += "| scene | metric | ruling | ratio [95 %] | pairs as said |\n| --- | --- | --- | ---: | --- |\n";
+  out += "| scene | metric | ruling | ratio [95 %] | pairs, each alone |\n| --- | --- | --- | ---: | --- |\n";
   for (const ClaimRow& r : tried.rows)
     out += fmt::format("| {} | {} | {} | {} | {} |\n", printable(r.scene), r.metric, name(r.ruling),
                        ratio_text(r), pairs_text(r));
@@ -94,9 +103,16 @@ std::string claims_text(const Report& report, const std::vector<TriedClaim>& cla
   for (const TriedClaim& c : claims) out += as_markdown ? markdown(c) : terminal(c) + "\n";
   return printable_lines(out) +
          fmt::format(
-             "ratios: geometric means over pairs of cases alike in all else, with Student's interval "
-             "over seeds "
-             "(of times: the ends of the medians' intervals and the A/A noise); {}{}\n",
+             "ratios: geometric means over pairs of cases alike in all else, with Student's interval over "
+             "seeds "
+             "(of times: the ends of the medians' intervals and the A/A noise; of temporal.static: of the "
+             "seeds' "
+             "mean distances from the mean of all images);\n"
+             "temporal.derivative counts light that lags or is blurred away, too;\n"
+             "a claim holds where this interval is wholly as said and no pair is contrary; a pair is as said "
+             "or "
+             "contrary where its own interval is wholly so, else open: pairs that are all open can tell "
+             "together; {}{}\n",
              printable(report.device.name),
              report.device.type == "cpu" ? ", a CPU: its times say nothing of a GPU's" : "");
 }

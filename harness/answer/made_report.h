@@ -18,6 +18,9 @@ struct MadeCase {
   double error = 10;                     // SMAPE, mean over seeds; RMSE is a hundredth
   double bias = 0;
   std::string reference = "0123";
+  // Mean over seeds of temporal.derivative and of the seeds' deviations in temporal.static; 0: still.
+  double flicker = 0;
+  double detail = 1;
 };
 
 class MadeReport {
@@ -57,6 +60,7 @@ class MadeReport {
     ReferenceInfo reference;
     reference.hash = made.reference;
     c.accuracy = accuracy_over_seeds(c.seeds, reference);
+    if (made.flicker > 0) c.temporal = temporal_of(made);
     report.cases.push_back(std::move(c));
     return report.cases.back();
   }
@@ -71,6 +75,20 @@ class MadeReport {
   double seed_scatter(uint64_t seed) const {
     std::mt19937_64 of_seed(seed + 17);
     return seed_noise_ > 0 ? std::exp(std::normal_distribution<>(0, seed_noise_)(of_seed)) : 1;
+  }
+  Temporal temporal_of(const MadeCase& made) const {
+    Temporal t;
+    t.derivative.value = made.flicker;
+    t.still.emplace().value = made.flicker;
+    t.detail.emplace().value = made.detail;
+    for (uint64_t s = 0; s < seeds_; ++s) {
+      t.derivative.values.push_back(made.flicker * seed_scatter(s));
+      t.still->series.push_back(made.flicker * seed_scatter(s));
+      t.detail->values.push_back(made.detail * seed_scatter(s));
+    }
+    t.frames = 16;
+    t.seeds = seeds_;
+    return t;
   }
   std::mt19937_64 random_;
   double time_noise_, seed_noise_;

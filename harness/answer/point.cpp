@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "report/metric_cell.h"
 #include "report/noise.h"
 
 namespace vsglbench {
@@ -60,16 +61,13 @@ std::vector<double> seeds_of(const CaseResult& c, Metric metric) {
   return out;
 }
 
-// A report of old does not say so; its seeds do.
-bool is_heavy_tailed(const MetricResult& m, const std::vector<double>& seeds) {
-  return m.heavy_tailed || (!seeds.empty() && std::ranges::max(seeds) > kHeavyTail * median(seeds));
+MetricResult judged_result(const CaseResult& c, const Named& metric) {
+  return judged((*c.accuracy).*metric.result, metric.metric, c.seeds);
 }
 
-Estimate error_of(const CaseResult& c, const Named& metric, const std::vector<double>& seeds) {
-  const MetricResult& m = (*c.accuracy).*metric.result;
-  if (!is_heavy_tailed(m, seeds)) return {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})};
+Estimate estimate_of(const MetricResult& m) {
   if (m.heavy_tailed) return {*m.median, {*m.least, *m.largest}};
-  return {median(seeds), {std::ranges::min(seeds), std::ranges::max(seeds)}};
+  return {*m.value, m.ci95.value_or(Interval{*m.value, *m.value})};
 }
 
 // Time must be above 0 for a logarithm; an error of 0 is exact and stays.
@@ -80,8 +78,8 @@ std::optional<Point> point_of(const CaseResult& c, const Named& metric, const st
   if (!ms && time == "method") ms = method_time(c.passes);  // a report of old has the passes alone
   if (!ms || !(ms->median > 0)) return std::nullopt;
   const std::vector<double> seeds = seeds_of(c, metric.metric);
-  const bool heavy = is_heavy_tailed((*c.accuracy).*metric.result, seeds);
-  return Point{&c, error_of(c, metric, seeds), seeds, {ms->median, ms->ci95}, heavy, ms->samples.size()};
+  const MetricResult error = judged_result(c, metric);
+  return Point{&c, estimate_of(error), seeds, {ms->median, ms->ci95}, error.heavy_tailed, ms->samples.size()};
 }
 
 Relation relation(const Interval& ratio, double margin) {
@@ -113,7 +111,7 @@ const MetricResult* metric_of(const Accuracy& accuracy, const std::string& metri
 
 std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric) {
   if (!c.accuracy || !metric_of(*c.accuracy, metric)) return std::nullopt;
-  return error_of(c, axis(metric), seeds_of(c, axis(metric).metric));
+  return estimate_of(judged_result(c, axis(metric)));
 }
 
 std::string metric_title(const std::string& metric) { return axis(metric).title; }

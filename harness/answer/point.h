@@ -25,7 +25,7 @@ struct AnswerOptions {
   std::string time = "method";
 };
 
-// Of fewer frames the bootstrap's interval says nothing.
+// Of fewer frames a median's interval, between order statistics, says nothing.
 inline constexpr size_t kFewFrames = 3;
 
 struct Point {

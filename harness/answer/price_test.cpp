@@ -76,7 +76,51 @@ TEST(Budget, SaysWhatIsMissing) {
   ASSERT_EQ(b.parts.size(), 3u);
   EXPECT_EQ(b.parts[0].missing, "all-texels, shading exact, visibility none");
   EXPECT_FALSE(b.parts[1].error);
-  EXPECT_NEAR(b.parts[2].increment.value(), 12, 1e-9);
+  EXPECT_NEAR(b.parts[2].error.value().value, 12, 1e-9);
+  EXPECT_FALSE(b.parts[2].increment);  // the RSM's, the lobes' and the clusters' share of it can't be told
+}
+
+// all-texels of another picture is no step on the way to the case's.
+TEST(Budget, AllTexelsMustBeTheSamePicture) {
+  const Json own = {{"rsm", 64},
+                    {"N", 16},
+                    {"visibility", "exact"},
+                    {"light_clearance", "sigma"},
+                    {"K", 1},
+                    {"shading", "vsgl16"},
+                    {"diffuse", "cosine"},
+                    {"bias_reduction", 0.5},
+                    {"progressive", 1},
+                    {"lambert_sharpness", "2"}};
+  const auto missing = [&](const std::string& key, const Json& value) {
+    MadeReport made(1, 0, 0);
+    const auto add = [&](const std::string& method, const char* shading, const Json& changes) {
+      Json parameters = own;
+      parameters.update({{"visibility", "none"}, {"light_clearance", "0"}, {"shading", shading}});
+      parameters.update(changes);
+      if (method == "all-texels") parameters.erase("N"), parameters.erase("K");
+      made.add({.method = method, .parameters = parameters, .passes = {{"shade", 1}}, .error = 4});
+    };
+    add("all-texels", "exact", {{key, value}});
+    add("all-texels", "vsgl16", {{key, value}});
+    add("fis", "vsgl16", Json::object());
+    add("fis", "vsgl16", {{"visibility", "exact"}, {"light_clearance", "sigma"}});
+    std::vector<std::string> out;
+    for (const BudgetPart& part : error_budget(made.report, made.report.cases.back()).parts)
+      out.push_back(part.missing);
+    return out;
+  };
+  using Texts = std::vector<std::string>;
+  const std::string lobes = "all-texels, shading vsgl16, visibility none, ";
+  EXPECT_EQ(missing("progressive", 1), (Texts{"", "", "", ""}));
+  EXPECT_EQ(missing("light_clearance", "sigma"), (Texts{"", "", "", ""}));
+  EXPECT_EQ(missing("bias_reduction", 0), (Texts{"", lobes + "bias_reduction 0.5", "", ""}));
+  EXPECT_EQ(missing("diffuse", "tokuyoshi2024"), (Texts{"", lobes + "diffuse cosine", "", ""}));
+  EXPECT_EQ(missing("lambert_sharpness", "2.2925"), (Texts{"", lobes + "lambert_sharpness 2", "", ""}));
+  EXPECT_EQ(missing("progressive", 4), (Texts{"all-texels, shading exact, visibility none, progressive 1",
+                                              lobes + "progressive 1", "", ""}));
+  EXPECT_EQ(missing("rsm", 128),
+            (Texts{"all-texels, shading exact, visibility none, rsm 64", lobes + "rsm 64", "", ""}));
 }
 
 // A report from before heavy tails were told: of N=1024 one seed of four is a spike, the others are better.

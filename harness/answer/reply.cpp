@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "report/case_names.h"
 #include "report/noise.h"
+#include "report/table_layout.h"
 
 namespace vsglbench {
 namespace {
@@ -32,6 +33,13 @@ std::string number(double v) { return significant(v, 3); }
 
 std::string with_interval(const Estimate& e, const std::string& unit) {
   return fmt::format("{}{} [{}, {}]", number(e.value), unit, number(e.ci95.lo), number(e.ci95.hi));
+}
+
+// Where seeds are heavy-tailed, their median and range: no interval of 95 %.
+std::string error_interval(const Point& p, const std::string& unit) {
+  if (!p.heavy_tailed) return with_interval(p.error, unit);
+  return fmt::format("{}{} [{} … {}]", number(p.error.value), unit, number(p.error.ci95.lo),
+                     number(p.error.ci95.hi));
 }
 
 // A time that few frames were measured of has no interval to speak of.
@@ -82,7 +90,8 @@ class Answer {
   }
   std::string error_told(double v) const { return error_text(v) + floor_text(v); }
   std::string error_told(const Point& p) const {
-    return with_interval(p.error, metric_unit(metric())) + floor_text(p.error.value);
+    return error_interval(p, metric_unit(metric())) + (p.heavy_tailed ? " (median and range of seeds)" : "") +
+           floor_text(p.error.value);
   }
   std::string label(size_t i) const { return printable(names_.label(*group_.points[i].result)); }
 
@@ -197,8 +206,8 @@ class Answer {
   }
 
   std::string error_cell(size_t i) const {
-    const Estimate& e = group_.points[i].error;
-    return with_interval(e, "") + (e.value <= group_.error_floor ? " ≤ floor" : "");
+    const Point& p = group_.points[i];
+    return error_interval(p, "") + (p.error.value <= group_.error_floor ? " ≤ floor" : "");
   }
 
   // Each method's best, and how much more it costs than the first.
@@ -208,7 +217,7 @@ class Answer {
     const std::vector<size_t> rows = best_of_methods();
     for (const size_t i : rows) {
       width = std::max(width, label(i).size());
-      error_width = std::max(error_width, error_cell(i).size());
+      error_width = std::max(error_width, display_width(error_cell(i)));
     }
     out += fmt::format("  {:<{}}  {:>{}}  {:>24}  {:>8}\n", "method", width,
                        metric_title(metric()) + metric_unit(metric()) + " [95 %]", error_width, "ms [95 %]",
@@ -219,6 +228,10 @@ class Answer {
       out += fmt::format("  {:<{}}  {:>{}}  {:>24}  {:>8}\n", label(i), width, error_cell(i), error_width,
                          time_text(p), first > 0 ? fmt::format("{:.2f}", rank(p) / first) : "-");
     }
+    if (std::ranges::any_of(rows, [&](size_t i) { return group_.points[i].heavy_tailed; }))
+      out += fmt::format(
+          "  [ … ]: median and range of seeds, not 95 %, where the largest is over {} times the median\n",
+          kHeavyTail);
     if (std::ranges::any_of(rows,
                             [&](size_t i) { return !floor_text(group_.points[i].error.value).empty(); }))
       out += fmt::format("  floor: the reference's own noise, {}\n", error_text(group_.error_floor));

@@ -54,6 +54,21 @@ TEST(Reply, WithoutAQuestionNamesTheLeastErrorAndWhatIsCheaper) {
       << reply(more.report, {});
 }
 
+// Median and range are no interval of 95 %, and say so.
+TEST(Reply, OfHeavyTailedSeedsItHasMedianAndRange) {
+  Report r = sweep();
+  Question q;
+  ask_error("smape<=60", &q);
+  EXPECT_FALSE(has(reply(r, q), "median")) << reply(r, q);
+  for (CaseResult& c : r.cases) {
+    if (c.method == "cut" && c.parameters.at("N") == 64) c.seeds[0].errors.smape *= 20;
+  }
+  const std::string text = reply(r, q);
+  EXPECT_TRUE(has(text, "SMAPE 50 % [50 … 1000] (median and range of seeds)")) << text;
+  EXPECT_TRUE(has(text, "[ … ]: median and range of seeds, not 95 %, where the largest is over 10 times"))
+      << text;
+}
+
 TEST(Reply, ATimeOfFewFramesHasNoInterval) {
   MadeReport made(1, 0, 0, 2);
   made.add(

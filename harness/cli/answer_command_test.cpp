@@ -56,5 +56,20 @@ TEST_F(CliTest, ExportWritesEveryFormat) {
   expect_refused(run({"export", kQuick, "--format", "benchr"}), 2, "did you mean 'bencher'");
 }
 
+// More than a buffer and less than one, and help.
+TEST_F(CliTest, WhatReadsReportsSaysWhenItsOutputGoesNowhere) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"export", kQuick, "--format", "bencher"},
+        {"analyse", kQuick},
+        {"table", kQuick, "--format", "csv"},
+        {"claims", kQuick},
+        {"answer", kQuick},
+        {"compare", kQuick, kQuick},
+        {"--help"},
+        {"--version"}})
+    expect_refused(finish(start(command, {.standard_output = "/dev/full"})), 2,
+                   "standard output: No space left on device");
+}
+
 }  // namespace
 }  // namespace vsglbench

@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -141,12 +143,19 @@ int main(int argc, char** argv) {
     }
     return result.exit_code;
   } catch (const CLI::ParseError& e) {
-    return e.get_exit_code() == 0 ? app.exit(e) : report_usage(app, e, arguments);
+    if (e.get_exit_code() != 0) return report_usage(app, e, arguments);
+    const int code = app.exit(e);  // prints help or version
+    if (std::cout.flush()) return code;
+    return report(fmt::format("standard output: {}", std::strerror(errno)), exit_code(ErrorKind::output));
   } catch (const Error& e) {
     return report(e.what(), e.exit_code());
   } catch (const std::bad_alloc&) {
     return report("out of memory; use a smaller frame, RSM or number of lights",
                   exit_code(ErrorKind::case_failed));
+  } catch (const std::system_error& e) {
+    // fmt::print's, where what is printed is more than a buffer; files have errors of their own.
+    if (!std::ferror(stdout)) return report(e.what(), exit_code(ErrorKind::internal));
+    return report(fmt::format("standard output: {}", e.code().message()), exit_code(ErrorKind::output));
   } catch (const std::exception& e) {
     return report(e.what(), exit_code(ErrorKind::internal));
   }

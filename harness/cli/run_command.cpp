@@ -12,6 +12,7 @@
 #include "report/ledger.h"
 #include "report/noise.h"
 #include "report/table.h"
+#include "report/table_notes.h"
 #include "run/config.h"
 #include "run/runner.h"
 
@@ -32,12 +33,7 @@ void print_outcome(const RunOutcome& outcome) {
   fmt::print("{}", terminal_table(outcome.report, {.width = terminal_width()}));
   for (const SceneReport& scene : outcome.report.scenes)
     if (!scene.effects.empty()) fmt::print("{}", short_ledger(scene));
-  const WallTime& w = outcome.report.wall;
-  fmt::print(
-      "{}\n{:.1f} s in all: frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, "
-      "compilation {:.1f}, the rest {:.0f} % of the device's time\n",
-      outcome.report_path.string(), w.total_s, w.device_s, w.references_s, w.visibility_s, w.compilation_s,
-      100 * std::max(0.0, w.overhead_ratio - 1));
+  fmt::print("{}\n{}\n", outcome.report_path.string(), wall_text(outcome.report.wall));
 }
 
 // "5%" as 0.05.

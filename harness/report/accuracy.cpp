@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "report/metric_cell.h"
 #include "report/report.h"
 
 namespace vsglbench {
@@ -29,8 +30,9 @@ double size_of(Metric metric, double value) { return std::abs(metric == Metric::
 void describe_spread(Metric metric, const std::vector<double>& values, MetricResult* result) {
   std::vector<double> sizes;
   for (const double v : values) sizes.push_back(size_of(metric, v));
-  if (!(*std::max_element(sizes.begin(), sizes.end()) > kHeavyTail * median(sizes))) return;
-  result->heavy_tailed = true;
+  result->heavy_tailed = *std::max_element(sizes.begin(), sizes.end()) > kHeavyTail * median(sizes);
+  result->median = result->least = result->largest = std::nullopt;
+  if (!result->heavy_tailed) return;
   result->median = median(values);
   result->least = *std::min_element(values.begin(), values.end());
   result->largest = *std::max_element(values.begin(), values.end());
@@ -101,6 +103,14 @@ void undefine_relative(double light_ratio, Accuracy* a) {
 }
 
 }  // namespace
+
+MetricResult judged(const MetricResult& metric, Metric which, const std::vector<SeedResult>& seeds) {
+  MetricResult out = metric;
+  const std::vector<double> values = values_of(which, seeds);
+  const bool all = which == Metric::flip || values.size() == seeds.size();  // flip is of some seeds alone
+  if (metric.value && !values.empty() && all) describe_spread(which, values, &out);
+  return out;
+}
 
 Accuracy accuracy_over_seeds(const std::vector<SeedResult>& seeds, const ReferenceInfo& reference) {
   if (seeds.empty())

@@ -31,28 +31,29 @@ std::string floors_of(const Report& report, const std::string& scene, double sca
   return text == other ? text : text + " … " + other;
 }
 
-Column error_column(const char* name, const char* head, MetricResult Accuracy::*metric, double scale,
-                    const char* format, Floor floor) {
+Column error_column(const char* name, const char* head, Metric which, MetricResult Accuracy::*metric,
+                    double scale, const char* format, Floor floor) {
   Column column{name, head, {}, {}, {}, {}, {}};
   column.value = [=](const CaseResult& c, const CaseResult&) -> std::optional<double> {
     if (!c.accuracy) return std::nullopt;
-    const MetricResult& m = *c.accuracy.*metric;
+    const MetricResult m = judged(*c.accuracy.*metric, which, c.seeds);
     const auto& v = m.heavy_tailed ? m.median : m.value;
     return v ? std::optional(*v * scale) : std::nullopt;
   };
   column.interval = [=](const CaseResult& c, const CaseResult&) -> std::optional<Interval> {
     if (!c.accuracy) return std::nullopt;
-    const MetricResult& m = *c.accuracy.*metric;
+    const MetricResult m = judged(*c.accuracy.*metric, which, c.seeds);
     if (m.heavy_tailed) return Interval{*m.least * scale, *m.largest * scale};
     return m.ci95 ? std::optional(Interval{m.ci95->lo * scale, m.ci95->hi * scale}) : std::nullopt;
   };
   column.cell = [=](const CaseResult& c, const CaseResult&) {
     if (!c.accuracy || (*c.accuracy.*metric).empty()) return std::string();  // a report of old has fewer
-    return metric_cell(*c.accuracy.*metric, scale, format, floor(c.accuracy->reference));
+    return metric_cell(judged(*c.accuracy.*metric, which, c.seeds), scale, format,
+                       floor(c.accuracy->reference));
   };
   column.number = [=](const CaseResult& c, const CaseResult&) {
     const bool known = c.accuracy && !(*c.accuracy.*metric).empty();
-    return known ? number_of(*c.accuracy.*metric, scale, format) : "";
+    return known ? number_of(judged(*c.accuracy.*metric, which, c.seeds), scale, format) : "";
   };
   column.floor = [=](const Report& report, const std::string& scene) {
     return floors_of(report, scene, scale, floor);
@@ -75,6 +76,48 @@ Column flux_column() {
     return c.generate && c.generate->flux ? fmt::format("{:.3f}", c.generate->flux->value) : std::string();
   };
   column.cell = column.number;
+  column.floor = [](const Report&, const std::string&) { return std::string(); };
+  return column;
+}
+
+// --- flicker ---
+
+struct Moving {
+  double value;
+  std::optional<Interval> ci95;
+};
+
+std::optional<Moving> derivative_of(const Temporal& t) {
+  return Moving{t.derivative.value, t.derivative.ci95};
+}
+std::optional<Moving> static_of(const Temporal& t) {
+  return t.still ? std::optional(Moving{t.still->value, t.still->ci95}) : std::nullopt;
+}
+std::optional<Moving> detail_of(const Temporal& t) {
+  return t.detail ? std::optional(Moving{t.detail->value, t.detail->ci95}) : std::nullopt;
+}
+
+Column temporal_column(const char* name, const char* head, std::optional<Moving> (*of)(const Temporal& t)) {
+  Column column{name, head, {}, {}, {}, {}, {}};
+  const auto found = [=](const CaseResult& c) { return c.temporal ? of(*c.temporal) : std::nullopt; };
+  column.value = [=](const CaseResult& c, const CaseResult&) {
+    const auto v = found(c);
+    return v ? std::optional(v->value) : std::nullopt;
+  };
+  column.interval = [=](const CaseResult& c, const CaseResult&) {
+    const auto v = found(c);
+    return v ? v->ci95 : std::nullopt;
+  };
+  column.number = [=](const CaseResult& c, const CaseResult&) {
+    const auto v = found(c);
+    return v ? fmt::format("{:.4f}", v->value) : std::string();
+  };
+  column.cell = [=](const CaseResult& c, const CaseResult&) {
+    const auto v = found(c);
+    if (!v) return std::string();
+    const std::string half = v->ci95 ? fmt::format(" ± {:.2g}", 0.5 * v->ci95->width()) : "";
+    return fmt::format("{:.4f}{}", v->value, half);
+  };
   column.floor = [](const Report&, const std::string&) { return std::string(); };
   return column;
 }
@@ -159,16 +202,19 @@ Column on_request(Column column) {
 
 const std::vector<Column>& frame_columns() {
   static const std::vector<Column> columns = {
-      error_column("smape", "SMAPE %", &Accuracy::smape, 1, "{:.2f}",
+      error_column("smape", "SMAPE %", Metric::smape, &Accuracy::smape, 1, "{:.2f}",
                    [](const ReferenceInfo& r) { return std::optional(r.noise_floor_smape); }),
-      error_column("smape_lit", "SMAPE lit %", &Accuracy::smape_lit, 1, "{:.2f}",
+      error_column("smape_lit", "SMAPE lit %", Metric::smape_lit, &Accuracy::smape_lit, 1, "{:.2f}",
                    [](const ReferenceInfo& r) { return r.noise_floor_smape_lit; }),
-      error_column("rmse", "RMSE", &Accuracy::rmse, 1, "{:.4g}",
+      error_column("rmse", "RMSE", Metric::rmse, &Accuracy::rmse, 1, "{:.4g}",
                    [](const ReferenceInfo& r) { return r.noise_floor_rmse; }),
-      error_column("flip", "flip", &Accuracy::flip, 1, "{:.4f}",
+      error_column("flip", "flip", Metric::flip, &Accuracy::flip, 1, "{:.4f}",
                    [](const ReferenceInfo& r) { return r.noise_floor_flip; }),
-      error_column("bias", "bias %", &Accuracy::bias, 100, "{:+.2f}", unknown_floor),
+      error_column("bias", "bias %", Metric::bias, &Accuracy::bias, 100, "{:+.2f}", unknown_floor),
       flux_column(),
+      temporal_column(kTemporalColumns[0], "flicker", derivative_of),
+      temporal_column(kTemporalColumns[1], "static flicker", static_of),
+      temporal_column(kTemporalColumns[2], "detail", detail_of),
       time_column("generate", "generate ms"),
       time_column("method", "method ms [95 %]", true),
       time_column("rays", "rays ms (host)"),

@@ -23,6 +23,9 @@ struct Column {
   bool on_request = false;  // stands in a table only where it is named
 };
 
+// The columns that only scenes in motion have.
+inline constexpr const char* kTemporalColumns[] = {"flicker", "static_flicker", "detail"};
+
 // Columns for whole frames: errors are means over seeds, and one that is not above the reference's own noise
 // is followed by "≤ floor VALUE"; times are medians in ms.
 const std::vector<Column>& frame_columns();

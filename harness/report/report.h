@@ -201,7 +201,8 @@ struct FlickerSeries {
   uint64_t worst_frame = 0;
   std::vector<double> series;
   std::optional<Interval> ci95;
-  std::string formula;  // MetricFormula::id
+  std::string formula;         // MetricFormula::id
+  std::vector<double> values;  // of `derivative`, of seed 0, 1, …; empty in a report of old, and of `static`
 };
 
 // The reference's detail that is kept (image/detail.h), as FlickerSeries.
@@ -209,6 +210,7 @@ struct DetailResult {
   double value = 0;
   std::optional<Interval> ci95;
   std::string formula;
+  std::vector<double> values;
 };
 
 // Over the first `frames` frames of a scene in motion, each rendered with `seeds` seeds.

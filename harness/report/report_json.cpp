@@ -217,12 +217,14 @@ void fields(auto& a, Is<FlickerSeries> auto& v) {
   a("series", v.series);
   a("ci95", v.ci95);
   a("formula", v.formula);
+  a.unless_empty("values", v.values);
 }
 
 void fields(auto& a, Is<DetailResult> auto& v) {
   a("value", v.value);
   a("ci95", v.ci95);
   a("formula", v.formula);
+  a.unless_empty("values", v.values);
 }
 
 void fields(auto& a, Is<Temporal> auto& v) {

@@ -109,9 +109,11 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
                           "accuracy/reference/ended_by",
                           "temporal",
                           "temporal/derivative/ci95",
+                          "temporal/derivative/values",
                           "temporal/static",
                           "temporal/detail",
-                          "temporal/detail/ci95"}) {
+                          "temporal/detail/ci95",
+                          "temporal/detail/values"}) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {

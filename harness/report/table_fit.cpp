@@ -9,8 +9,9 @@ namespace {
 
 constexpr size_t kGap = 2, kShortestName = 24;
 // Columns that go first where there is no room; what is not named here goes before them, from the right.
-constexpr const char* kKept[] = {"smape", "method", "generate", "rmse", "smape_lit", "flip",
-                                 "bias",  "ratio",  "frame",    "rays", "flux"};
+constexpr const char* kKept[] = {"smape",          "method", "flicker", "generate", "rmse",
+                                 "smape_lit",      "flip",   "bias",    "ratio",    "frame",
+                                 "static_flicker", "detail", "rays",    "flux"};
 
 // How much a column is worth, the less the more.
 size_t rank_of(const TableLayout& table, size_t column) {

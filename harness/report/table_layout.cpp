@@ -197,6 +197,24 @@ const CaseResult& first_of_scene(const Report& report, const CaseResult& c) {
   return *std::ranges::find_if(report.cases, sound);
 }
 
+namespace {
+
+// What the columns of flicker are; empty where none is shown.
+std::string note_on_flicker(const std::vector<const CaseResult*>& cases, const std::vector<Column>& columns) {
+  const auto is_temporal = [](const Column& c) { return std::ranges::count(kTemporalColumns, c.name) > 0; };
+  const auto moves = [](const CaseResult* c) { return c->temporal.has_value(); };
+  if (std::ranges::none_of(columns, is_temporal) || std::ranges::none_of(cases, moves)) return "";
+  return "over the frames in motion, relative to the mean of the references: flicker, how far the image "
+         "changes from "
+         "frame to frame other than its reference, so that light which lags or is blurred away counts too, "
+         "mean and 95 % "
+         "over seeds; static flicker, the standard deviation of a still frame over seeds; detail, how much "
+         "of the "
+         "reference's is left: 1 as sharp, below 1 blurred";
+}
+
+}  // namespace
+
 TableContents contents_of(const Report& report, const TableOptions& options) {
   TableContents out{chosen_cases(report, options.only), {}};
   out.columns = chosen_columns(report, out.cases, options.columns);
@@ -208,6 +226,7 @@ TableLayout table_of(const Report& report, const TableOptions& options) {
   const auto [cases, columns] = contents_of(report, options);
   TableLayout table = options.across.empty() ? one_row_a_case(report, cases, columns)
                                              : across(report, cases, columns, options.across);
+  if (const std::string note = note_on_flicker(cases, columns); !note.empty()) table.notes.push_back(note);
   const auto more = table_notes(report, CaseNames(cases).shared(), options.link);
   table.notes.insert(table.notes.end(), more.begin(), more.end());
   return table;

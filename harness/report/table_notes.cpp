@@ -43,6 +43,18 @@ std::string source_note(const Report& report, const std::string& link) {
 
 }  // namespace
 
+std::string wall_text(const WallTime& w) {
+  const double rest =
+      std::max(0.0, w.total_s - w.device_s - w.references_s - w.visibility_s - w.compilation_s);
+  // Without a frame there is nothing that the rest could be a share of.
+  const std::string share =
+      w.device_s > 0 ? fmt::format(", {:.0f} % of the device's time", 100 * rest / w.device_s) : "";
+  return fmt::format(
+      "{:.1f} s in all: frames on the device {:.1f}, references {:.1f}, exact visibility {:.1f}, compilation "
+      "{:.1f}, the rest {:.1f}{}",
+      w.total_s, w.device_s, w.references_s, w.visibility_s, w.compilation_s, rest, share);
+}
+
 std::vector<std::string> table_notes(const Report& report, const std::string& shared,
                                      const std::string& link) {
   std::vector<std::string> out;

@@ -13,4 +13,7 @@ namespace vsglbench {
 std::vector<std::string> table_notes(const Report& report, const std::string& shared,
                                      const std::string& link);
 
+// Where a run's time went, in one line.
+std::string wall_text(const WallTime& wall);
+
 }  // namespace vsglbench

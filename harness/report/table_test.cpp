@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "report/synthetic_report.h"
+#include "report/table_notes.h"
 
 using namespace vsglbench;
 
@@ -236,6 +237,59 @@ TEST(Table, SaysWhatTheTimesAreWorth) {
   EXPECT_EQ(terminal_table(r).find("do not compare"), std::string::npos);
   r.host.load_at_start = 1;  // half of the cores
   EXPECT_EQ(terminal_table(r).find("busy"), std::string::npos);
+}
+
+// A report of old that lacks the median of seeds of which one is a spike, or has it where there is none.
+TEST(Table, SeedsTellHeavyTails) {
+  Report r = synthetic_report();
+  CaseResult& c = r.cases[0];
+  for (size_t s = 0; s < c.seeds.size(); ++s) c.seeds[s].errors.rmse = s == 0 ? 5 : 0.25;
+  const auto cell = [&] { return split(csv_table(r, {{"rmse"}, {c.id}, "", ""}))[1]; };
+  c.accuracy->rmse.value = 0.84;
+  EXPECT_TRUE(cell().ends_with(",0.25,0.25,5")) << cell();
+  expect_parts(markdown_table(r, {{"rmse"}, {c.id}, "", ""}), {"0.25 [0.25 … 5]"});
+  EXPECT_EQ(split(markdown_table(r, {{"rmse"}, {c.id}, "method", ""}))[2].find("0.84"), std::string::npos);
+  for (SeedResult& s : c.seeds) s.errors.rmse = 0.84;
+  c.accuracy->rmse.heavy_tailed = true;
+  c.accuracy->rmse.median = c.accuracy->rmse.least = c.accuracy->rmse.largest = 7;
+  EXPECT_NE(cell().find(",0.84,"), std::string::npos) << cell();
+  c.seeds.clear();  // nothing to judge by
+  EXPECT_TRUE(cell().ends_with(",7,7,7")) << cell();
+}
+
+TEST(Table, FlickerHasColumnsWhereSomethingMoves) {
+  Report r = synthetic_report();
+  const auto rows =
+      split(markdown_table(r, {{"flicker", "static_flicker", "detail"}, {"cornell/mfis*"}, "", ""}));
+  EXPECT_EQ(rows[0], "| case | flicker | static flicker | detail |");
+  expect_parts(rows[2], {"| 0.1000 ± 0.01 | 0.0500 | 0.9000 ± 0.1 |"});
+  expect_parts(terminal_table(r), {" flicker ", "relative to the mean of the references: flicker, how far"});
+  const auto csv = split(csv_table(r, {{"flicker", "static_flicker"}, {"cornell/mfis*"}, "", ""}));
+  EXPECT_TRUE(
+      csv[0].ends_with(",flicker,flicker_lo,flicker_hi,static_flicker,static_flicker_lo,static_flicker_hi"));
+  EXPECT_TRUE(csv[1].ends_with(",0.1,0.09,0.11,0.05,,")) << csv[1];
+  expect_parts(latex_table(r), {"& flicker & static flicker & detail &", "0.1000 $\\pm$ 0.01"});
+
+  r.cases = {r.cases[0], r.cases[0]};
+  r.cases[1].id = "cornell/steady";
+  r.cases[1].temporal->derivative.value = 0.05;
+  TableOptions least{{"flicker"}, {}, "", "flicker"};
+  EXPECT_TRUE(split(markdown_table(r, least))[2].starts_with("| cornell steady |"));
+  least.sort = "-flicker";
+  EXPECT_TRUE(split(markdown_table(r, least))[3].starts_with("| cornell steady |"));
+
+  for (CaseResult& c : r.cases) c.temporal.reset();
+  EXPECT_EQ(terminal_table(r).find("flicker"), std::string::npos);
+}
+
+TEST(Table, WhereTheTimeWentIsNoShareOfNothing) {
+  WallTime w{10, 2, 3, 1, 0.5, 1.75};
+  EXPECT_EQ(
+      wall_text(w),
+      "10.0 s in all: frames on the device 2.0, references 3.0, exact visibility 1.0, compilation 0.5, the "
+      "rest 3.5, 175 % of the device's time");
+  w.device_s = 0;
+  EXPECT_TRUE(wall_text(w).ends_with(", the rest 5.5"));
 }
 
 TEST(Table, MarkdownHasItsColumnsInEveryRow) {

@@ -71,6 +71,7 @@ Temporal CaseFlicker::finish() const {
   const MeanEstimate estimate = mean_ci95(values);
   all.value = estimate.mean;
   all.ci95 = interval_of(estimate);
+  all.values = values;
   all.p99 = mean_ci95(tails).mean;
   all.worst_frame = place_of_largest(all.series) + 1;
   all.formula = derivative_flicker_formula().id;
@@ -90,7 +91,7 @@ std::optional<DetailResult> CaseFlicker::detail() const {
     values.push_back(found->value);
   }
   const MeanEstimate estimate = mean_ci95(values);
-  return DetailResult{estimate.mean, interval_of(estimate), detail_formula().id};
+  return DetailResult{estimate.mean, interval_of(estimate), detail_formula().id, values};
 }
 
 }  // namespace vsglbench

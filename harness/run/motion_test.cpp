@@ -43,6 +43,9 @@ TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
   EXPECT_EQ(t.still->series.size(), 3u);
   EXPECT_GT(t.still->value, 0);
   ASSERT_TRUE(t.detail);
+  ASSERT_EQ(t.derivative.values.size(), 2u);
+  EXPECT_NEAR(0.5 * (t.derivative.values[0] + t.derivative.values[1]), t.derivative.value, 1e-12);
+  EXPECT_EQ(t.detail->values.size(), 2u);
   for (const char* picture : {"flicker", "profile"}) {
     const Bitmap drawn = read_png(out_ / cases[0].images.at(picture));
     EXPECT_GT(drawn.width, 64u) << picture;
