@@ -70,7 +70,7 @@ std::string ChartSource::shared() const {
 }
 
 std::string ChartSource::error_text(double v) const {
-  return fmt::format("{:.3g}{}", v, metric_unit(options.metric));
+  return significant(v, 3) + metric_unit(options.metric);
 }
 
 PlotPlace plot_place(const Chart& chart) {
@@ -122,7 +122,7 @@ void make_room(Chart* chart, const std::vector<std::string>& texts, double besid
   chart->width = static_cast<uint32_t>(plot + chart->right);
 }
 
-std::string ms_text(double ms) { return fmt::format(fmt::runtime(ms < 100 ? "{:.3g} ms" : "{:.0f} ms"), ms); }
+std::string ms_text(double ms) { return significant(ms, 3) + " ms"; }
 
 std::string colour_of(size_t i) { return kColours[i % std::size(kColours)]; }
 

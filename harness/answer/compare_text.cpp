@@ -25,8 +25,9 @@ Line line_of(const TimeChange& t) {
 Line line_of(const ErrorChange& e) {
   return {std::abs(std::log(e.ratio.value)), printable(e.case_id + ", " + e.metric),
           std::string(name(e.change)),
-          fmt::format("{:.4g} → {:.4g}, {} [{}, {}]", e.base, e.now, change_percent(e.ratio.value),
-                      change_percent(e.ratio.ci95.lo), change_percent(e.ratio.ci95.hi))};
+          fmt::format("{} → {}, {} [{}, {}]", significant(e.base, 4), significant(e.now, 4),
+                      change_percent(e.ratio.value), change_percent(e.ratio.ci95.lo),
+                      change_percent(e.ratio.ci95.hi))};
 }
 
 // Regressions, then improvements, each from the largest; what is the same or unclear is counted only.

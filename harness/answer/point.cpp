@@ -117,11 +117,6 @@ std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric)
 std::string metric_title(const std::string& metric) { return axis(metric).title; }
 std::string metric_unit(const std::string& metric) { return axis(metric).unit; }
 
-std::string significant(double v, int digits) {
-  const std::string text = fmt::format("{:.{}g}", v, digits);
-  return text.find("e+") == std::string::npos ? text : fmt::format("{:.0f}", v);
-}
-
 std::string time_words(const std::string& time) {
   static const std::map<std::string, std::string> words = {
       {"method", "all passes but the raster of the two halves"},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/metric_cell.h"
 #include "report/report.h"
 
 namespace vsglbench {
@@ -61,8 +62,6 @@ std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric)
 // "SMAPE", "RMSE", …, and the unit after a number: " %" or "".
 std::string metric_title(const std::string& metric);
 std::string metric_unit(const std::string& metric);
-// So many significant digits, and never an exponent above 0: "0.00164", "1.64", "1640".
-std::string significant(double v, int digits);
 // What a time of report/noise.h is, in words: "the whole frame".
 std::string time_words(const std::string& time);
 

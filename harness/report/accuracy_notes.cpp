@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "report/metric_cell.h"
+
 namespace vsglbench {
 namespace {
 
@@ -11,6 +13,8 @@ constexpr double kBlackShare = 0.99;
 constexpr size_t kMostPairs = 3;
 
 double middle(const MetricResult& m) { return m.heavy_tailed ? *m.median : *m.value; }
+
+std::string told(const MetricResult& m) { return significant(middle(m), 3); }
 
 Interval range(const MetricResult& m) {
   if (m.heavy_tailed) return {*m.least, *m.largest};
@@ -41,10 +45,9 @@ void note_ranks(const std::vector<const CaseResult*>& cases, std::vector<std::st
       const int rmse = ranks(a->rmse, b->rmse, a->reference.noise_floor_rmse.value_or(0));
       if (smape * rmse >= 0) continue;
       const CaseResult &x = smape < 0 ? *cases[i] : *cases[k], &y = smape < 0 ? *cases[k] : *cases[i];
-      pairs.push_back(fmt::format("{} before {} (SMAPE {:.3g} and {:.3g} %, RMSE {:.3g} and {:.3g})",
-                                  short_name(x, cases), short_name(y, cases), middle(x.accuracy->smape),
-                                  middle(y.accuracy->smape), middle(x.accuracy->rmse),
-                                  middle(y.accuracy->rmse)));
+      pairs.push_back(fmt::format("{} before {} (SMAPE {} and {} %, RMSE {} and {})", short_name(x, cases),
+                                  short_name(y, cases), told(x.accuracy->smape), told(y.accuracy->smape),
+                                  told(x.accuracy->rmse), told(y.accuracy->rmse)));
     }
   }
   if (pairs.empty()) return;

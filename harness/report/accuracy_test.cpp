@@ -120,6 +120,15 @@ TEST(Accuracy, HeavyTailsAreInTheFile) {
   EXPECT_TRUE(report_from_json(json).cases[0].accuracy->bias.heavy_tailed);
 }
 
+TEST(MetricCell, NoNumberIsAPowerOfTen) {
+  const Accuracy a = accuracy_over_seeds({{1, {1000, 1}}, {2, {1400, 3}}}, {});
+  EXPECT_EQ(metric_cell(a.smape, 1, "{:.2f}", 11.0), "1200.00 ± 2541");
+  EXPECT_EQ(significant(1640, 3), "1640");
+  EXPECT_EQ(significant(999.6, 3), "1000");
+  EXPECT_EQ(significant(-12345.6, 3), "-12346");
+  EXPECT_EQ(significant(0.0000123, 2), "1.2e-05");
+}
+
 TEST(MetricCell, SaysWhatANumberIsWorth) {
   const Accuracy a = accuracy_over_seeds({{1, {10, 1}}, {2, {14, 3}}}, {});
   EXPECT_EQ(metric_cell(a.smape, 1, "{:.2f}", 11.0), "12.00 ± 25");

@@ -27,7 +27,7 @@ std::string floors_of(const Report& report, const std::string& scene, double sca
   }
   if (all.empty()) return "";
   const auto [least, most] = std::ranges::minmax(all);
-  const std::string text = fmt::format("{:.2g}", least), other = fmt::format("{:.2g}", most);
+  const std::string text = significant(least, 2), other = significant(most, 2);
   return text == other ? text : text + " … " + other;
 }
 

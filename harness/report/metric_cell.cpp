@@ -12,7 +12,12 @@ std::string metric_cell(const MetricResult& metric, double scale, const char* fo
   }
   const std::string text = number(*metric.value);
   if (floor && *metric.value <= *floor) return text + " ≤ floor " + number(*floor);
-  return metric.ci95 ? text + fmt::format(" ± {:.2g}", 0.5 * metric.ci95->width() * scale) : text;
+  return metric.ci95 ? text + " ± " + significant(0.5 * metric.ci95->width() * scale, 2) : text;
+}
+
+std::string significant(double v, int digits) {
+  const std::string text = fmt::format("{:.{}g}", v, digits);
+  return text.find("e+") == std::string::npos ? text : fmt::format("{:.0f}", v);
 }
 
 }  // namespace vsglbench

@@ -18,4 +18,7 @@ MetricResult judged(const MetricResult& metric, Metric which, const std::vector<
 std::string metric_cell(const MetricResult& metric, double scale, const char* format,
                         std::optional<double> floor);
 
+// So many significant digits, and never an exponent above 0: "0.00164", "1.64", "1640".
+std::string significant(double v, int digits);
+
 }  // namespace vsglbench

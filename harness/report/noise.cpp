@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "report/metric_cell.h"
+
 namespace vsglbench {
 namespace {
 
@@ -26,9 +28,7 @@ std::optional<PassStage> stage_of(const std::string& column) {
 
 }  // namespace
 
-std::string percent(double share) {
-  return share < 1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
-}
+std::string percent(double share) { return significant(100 * share, 2) + " %"; }
 
 const std::vector<std::string>& time_columns() {
   static const std::vector<std::string> names = {

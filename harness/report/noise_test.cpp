@@ -104,6 +104,7 @@ TEST(Noise, TheNoisiestTimeOfAllScenesIsNamed) {
 TEST(Noise, IsPrintedAsAPercentage) {
   EXPECT_EQ(percent(0.0416), "4.2 %");
   EXPECT_EQ(percent(0.12), "12 %");
+  EXPECT_EQ(percent(0.996), "100 %");
   EXPECT_EQ(percent(3.404), "340 %");
 }
 
