@@ -27,6 +27,7 @@ struct CompareOptions {
 // One time of one case, or of many: ratio new / base.
 struct TimeChange {
   std::string scene, case_id;   // both empty: over all cases that have it
+  std::string method;           // over this method's cases alone; empty: over those of all
   std::string time;             // a pass, or a name of report/noise.h
   Ratio ratio;                  // of medians, bootstrap; over cases, of the mean of log ratios, a pair a case
   std::optional<double> noise;  // the larger A/A floor of the two reports; absent: not known
@@ -34,6 +35,8 @@ struct TimeChange {
       0.5;  // P(a time of one > one of the other), of the slower; over cases: the share of pairs
   Change change = Change::same;
 };
+// Whether it is ambiguous, and slower is among what it may be.
+bool may_be_slower(const TimeChange& time);
 
 // One metric of one case: seeds are pairs.
 struct ErrorChange {
@@ -52,9 +55,11 @@ struct Comparison {
   std::vector<std::string> missing, added;  // ids of the base alone, of the new alone
   std::vector<std::string> broken, mended;  // ok before and not now, and the reverse
   std::vector<TimeChange> passes;           // over all cases, one a pass; by name
+  std::vector<TimeChange> method_passes;    // one a pass and method
   std::vector<TimeChange> times;            // method time of every case
   std::vector<ErrorChange> errors;          // every metric of every case
-  // 0: no regression; 4: one; 5: refused, or no regression but a pass is ambiguous and may be slower.
+  // 0: no regression; 4: one; 5: refused, or no regression but a pass is ambiguous and may be slower,
+  // also in some method by itself.
   int exit_code() const;
 };
 

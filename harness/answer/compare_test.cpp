@@ -13,7 +13,8 @@ struct Plant {
   double factor = 1;
   std::string method;  // that gets `bias`, and `all`
   double bias = 0;
-  double all = 1;  // of every pass of the method
+  double all = 1;    // of every pass of the method
+  std::string only;  // the method whose `pass` it is; empty: every one's
 };
 
 // Twelve cases as a GPU measures them, 1 % of noise a frame, and an A/A pair.
@@ -28,7 +29,8 @@ Report measured(uint64_t seed, const Plant& plant = {}) {
                             {"importance.rsm", 1},
                             {"shade", n / 100.0}},
                  .error = 1000.0 / n};
-      if (c.passes.contains(plant.pass)) c.passes[plant.pass] *= plant.factor;
+      if (c.passes.contains(plant.pass) && (plant.only.empty() || plant.only == method))
+        c.passes[plant.pass] *= plant.factor;
       if (plant.method == method) {
         c.bias = plant.bias;
         for (auto& [pass, ms] : c.passes) ms *= plant.all;
@@ -41,7 +43,7 @@ Report measured(uint64_t seed, const Plant& plant = {}) {
       .parameters = {{"N", 64}},
       .passes = {{"gbuffer", 2}, {"generate.rsm.sample", 0.3}, {"importance.rsm", 1}, {"shade", 0.64}},
       .error = 1000.0 / 64};
-  if (first.passes.contains(plant.pass)) first.passes[plant.pass] *= plant.factor;
+  if (first.passes.contains(plant.pass) && plant.only.empty()) first.passes[plant.pass] *= plant.factor;
   for (auto& [pass, ms] : first.passes) ms *= plant.method == first.method ? plant.all : 1;
   const CaseResult twin = again.add(first);
   made.report.aa = {aa_pair(made.report.cases.front(), twin)};
@@ -67,7 +69,8 @@ TEST(Compare, FortyNullComparisonsFindNothing) {
   size_t said = 0;
   for (uint64_t seed = 1; seed <= 40; ++seed) {
     const Comparison c = compare_reports(measured(seed), measured(seed + 100));
-    const size_t found = not_null(c.passes) + not_null(c.times) + not_null(c.errors);
+    const size_t found =
+        not_null(c.passes) + not_null(c.method_passes) + not_null(c.times) + not_null(c.errors);
     said += found > 0;
     if (found > 0) printf("%s", comparison_text(c, false).c_str());
   }
@@ -166,7 +169,7 @@ TEST(Compare, FortyNullComparisonsOfRatiosFindNothing) {
   size_t said = 0;
   for (uint64_t seed = 1; seed <= 40; ++seed) {
     const Comparison c = compare_reports(measured(seed), measured(seed + 100), {.ratios = true});
-    said += not_null(c.passes) + not_null(c.times) > 0;
+    said += not_null(c.passes) + not_null(c.method_passes) + not_null(c.times) > 0;
   }
   EXPECT_LE(said, 1u);
 }
@@ -174,10 +177,59 @@ TEST(Compare, FortyNullComparisonsOfRatiosFindNothing) {
 // Its interval begins within the noise and ends beyond it, on the side of faster.
 TEST(Compare, WhatMayBeFasterIsNoDoubt) {
   Comparison c;
-  c.passes = {{"", "", "shade", {0.97, {0.94, 1.0}}, 0.02, 0.9, Change::ambiguous}};
+  c.passes = {{"", "", "", "shade", {0.97, {0.94, 1.0}}, 0.02, 0.9, Change::ambiguous}};
   EXPECT_EQ(c.exit_code(), 0);
   c.passes[0].ratio.ci95.hi = 1.03;
   EXPECT_EQ(c.exit_code(), 5);
+}
+
+// Nor does it make anything unclear that is clear without it, of the same noise.
+TEST(Compare, AnImprovementIsNamedAndNoFailure) {
+  size_t clear = 0;
+  for (const bool ratios : {false, true}) {
+    for (const char* only : {"", "cut"}) {
+      for (uint64_t seed = 1; seed <= 10; ++seed) {
+        const Plant plant{.pass = "shade", .factor = 0.9, .only = only};
+        const Comparison c = compare_reports(measured(seed), measured(seed + 100, plant), {.ratios = ratios});
+        const Comparison null = compare_reports(measured(seed), measured(seed + 100), {.ratios = ratios});
+        EXPECT_EQ(c.exit_code(), null.exit_code()) << comparison_text(c, false);
+        clear += c.exit_code() == 0;
+        const std::string line = only[0] ? "faster  pass shade of cut: -" : "faster  pass shade: -";
+        EXPECT_NE(comparison_text(c, false).find(line), std::string::npos) << comparison_text(c, false);
+      }
+    }
+  }
+  EXPECT_GE(clear, 36u);  // of 40
+}
+
+TEST(Compare, APassOfOneMethodAloneIsNamedAsThat) {
+  for (const bool ratios : {false, true}) {
+    for (uint64_t seed = 1; seed <= 10; ++seed) {
+      const Plant plant{.pass = "shade", .factor = 1.05, .only = "cut"};
+      const Comparison c = compare_reports(measured(seed), measured(seed + 100, plant), {.ratios = ratios});
+      EXPECT_EQ(c.exit_code(), 4);
+      for (const TimeChange& t : c.method_passes)
+        EXPECT_EQ(t.change == Change::slower, t.time == "shade" && t.method == "cut")
+            << t.time << " " << t.method;
+      EXPECT_EQ(not_null(c.passes), 0u) << comparison_text(c, false);
+      EXPECT_NE(comparison_text(c, false).find("slower  pass shade of cut: +"), std::string::npos);
+    }
+  }
+}
+
+// One case a method, as in a small gate: the frames tell.
+TEST(Compare, APassOfAMethodWithOneCaseIsNamed) {
+  const auto one_each = [](Report r) {
+    std::erase_if(r.cases, [](const CaseResult& c) { return c.parameters["N"] != 64; });
+    return r;
+  };
+  const Plant plant{.pass = "shade", .factor = 1.08, .only = "cut"};
+  const Comparison c = compare_reports(one_each(measured(1)), one_each(measured(2, plant)), {.ratios = true});
+  EXPECT_EQ(c.cases, 3u);
+  for (const TimeChange& t : c.method_passes)
+    EXPECT_EQ(t.change == Change::slower, t.time == "shade" && t.method == "cut")
+        << t.time << " " << t.method;
+  EXPECT_EQ(c.exit_code(), 4);
 }
 
 TEST(Compare, NoiseThatIsNotKnownIsNotZero) {

@@ -16,7 +16,9 @@ struct Line {
 std::string change_percent(double ratio) { return fmt::format("{:+.1f} %", 100 * (ratio - 1)); }
 
 Line line_of(const TimeChange& t) {
-  const std::string what = t.case_id.empty() ? "pass " + t.time : t.case_id;
+  const std::string what = !t.case_id.empty() ? t.case_id
+                           : t.method.empty() ? "pass " + t.time
+                                              : "pass " + t.time + " of " + t.method;
   return {std::abs(std::log(t.ratio.value)), printable(what), std::string(name(t.change)),
           fmt::format("{} [{}, {}], noise {}", change_percent(t.ratio.value), change_percent(t.ratio.ci95.lo),
                       change_percent(t.ratio.ci95.hi), t.noise ? percent(*t.noise) : "not known")};
@@ -50,6 +52,16 @@ std::string counts(const std::vector<T>& changes) {
   return out.empty() ? "none" : out;
 }
 
+// Those that the pass over all cases does not say already.
+std::vector<TimeChange> of_methods_alone(const Comparison& c) {
+  std::vector<TimeChange> out;
+  std::ranges::copy_if(c.method_passes, std::back_inserter(out), [&](const TimeChange& m) {
+    return std::ranges::none_of(
+        c.passes, [&](const TimeChange& p) { return p.time == m.time && p.change == m.change; });
+  });
+  return out;
+}
+
 void print_lines(std::vector<Line> lines, bool markdown, std::string* out) {
   std::ranges::stable_sort(lines, std::ranges::greater(), &Line::size);
   for (const Line& l : lines) {
@@ -74,6 +86,7 @@ std::string comparison_text(const Comparison& c, bool markdown) {
   if (!c.refusal.empty()) return "not compared: " + printable(c.refusal) + "\n";
   std::vector<Line> worse, better;
   add_lines(c.passes, &worse, &better);
+  add_lines(of_methods_alone(c), &worse, &better);
   add_lines(c.times, &worse, &better);
   add_lines(c.errors, &worse, &better);
   std::string out;
@@ -85,8 +98,8 @@ std::string comparison_text(const Comparison& c, bool markdown) {
   print_ids("ok now", c.mended, &out);
   print_ids("not in the new report", c.missing, &out);
   print_ids("new", c.added, &out);
-  out += fmt::format("{} cases; passes over all of them: {}; times: {}; errors: {}\n", c.cases,
-                     counts(c.passes), counts(c.times), counts(c.errors));
+  out += fmt::format("{} cases; passes over all of them: {}; of one method: {}; times: {}; errors: {}\n",
+                     c.cases, counts(c.passes), counts(c.method_passes), counts(c.times), counts(c.errors));
   if (c.byte_equal)
     out += "kernels, plugins and driver are byte for byte those of the base: differences of time are noise\n";
   return printable_lines(out);

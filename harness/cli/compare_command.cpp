@@ -21,11 +21,11 @@ void add_compare_command(CLI::App& app, CommandResult* result) {
   CLI::App* command =
       app.add_subcommand("compare", "what became faster, slower, better or worse between two reports");
   command->footer(
-      "Times: ratios of medians with bootstrap intervals, per case and, a pair a case, per pass. A change is "
-      "one "
-      "beyond\nits interval, the A/A noise of both reports, 0.5 %, and a probability of superiority of 0.8. "
-      "Errors: seeds "
-      "are pairs.\nRefused: other formulas, other references, other devices (unless --ratios or "
+      "Times: ratios of medians with their intervals, per case and, a pair a case, per pass, over all cases "
+      "and over those\nof one method. A change is one beyond its interval, the A/A noise of both reports, "
+      "0.5 %, "
+      "and a probability of\nsuperiority of 0.8. Errors: seeds are pairs.\nRefused: other formulas, other "
+      "references, other devices (unless --ratios or "
       "--other-device).\n"
       "With byte-equal kernels, plugins and driver on one device, differences of time are noise: they are "
       "listed, and the exit code is 0\nunless errors are worse.\n"
