@@ -74,13 +74,13 @@ void main() {
 #if FACE_NORMALS
   out_normal.xyz = geometric;  // its bend towards the viewer is for who reads it
 #else
-  vec3 n = geometric;
+  // The face's normal on the side of the vertices' own: a normal map is seen from there.
+  vec3 n = dot(normal, geometric) < 0.0 ? -geometric : geometric;
 #if SMOOTH_NORMALS
   // What differs by no more than the rounding of vertices and of interpolation is the face's own normal, so
   // that where all normals are, no bit differs from the other branch. Opposite normals may cancel.
-  vec3 smooth_normal = dot(normal, normal) > 0.0 ? normalize(normal) : geometric;
-  if (dot(smooth_normal, geometric) < 0.0) smooth_normal = -smooth_normal;
-  if (distance(smooth_normal, geometric) > 2e-6) n = smooth_normal;
+  vec3 smooth_normal = dot(normal, normal) > 0.0 ? normalize(normal) : n;
+  if (distance(smooth_normal, n) > 2e-6) n = smooth_normal;
 #endif
 #if NORMAL_MAPS
   if ((draw.textures & 4u) != 0u) {
