@@ -55,8 +55,8 @@ std::optional<double> seed_value(const SeedResult& s, const std::string& metric)
   throw std::logic_error("no metric " + metric);
 }
 
-// By seed. Of the static flicker, which is one number for all seeds, how far each seed's image is from the
-// mean of all: the mean of |x - x̄| where `static` has the root of the mean of its square.
+// By seed. Of the static flicker, which is one number for all seeds, how far each seed's image is from those of
+// the others.
 std::vector<double> temporal_values(const Temporal& t, const std::string& metric) {
   if (metric == "temporal.derivative") return t.derivative.values;
   if (metric == "temporal.static") return t.still ? t.still->series : std::vector<double>{};
@@ -254,9 +254,10 @@ std::optional<Estimate> mean_of_seeds(const std::map<uint64_t, double>& logs, bo
   for (const auto& [seed, log] : logs) samples.push_back(log);
   const MeanEstimate mean = mean_ci95(samples);
   if (!one_mean) return Estimate{mean.mean, mean.ci95};
+  // Each pair's distance is in two of them. The jackknife's pseudovalues (image/static_flicker.h) scatter so
+  // much more.
   const auto count = static_cast<double>(samples.size());
-  const int degrees = static_cast<int>(samples.size()) - 2;
-  const double wider = student_t95(degrees) / student_t95(degrees + 1) * std::sqrt(count / (count - 1));
+  const double wider = 2 * (count - 1) / (count - 2);
   const double half = 0.5 * mean.ci95.width() * wider;
   return Estimate{mean.mean, {mean.mean - half, mean.mean + half}};
 }

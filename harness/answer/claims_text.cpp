@@ -107,7 +107,7 @@ std::string claims_text(const Report& report, const std::vector<TriedClaim>& cla
              "seeds "
              "(of times: the ends of the medians' intervals and the A/A noise; of temporal.static: of the "
              "seeds' "
-             "mean distances from the mean of all images);\n"
+             "mean distances from the others' images, by the jackknife);\n"
              "temporal.derivative counts light that lags or is blurred away, too;\n"
              "a claim holds where this interval is wholly as said and no pair is contrary; a pair is as said "
              "or "

@@ -33,7 +33,57 @@ double sorted_quantile(std::vector<double> values, double p) {
 
 }  // namespace
 
-TEST(StaticFlicker, IsTheDefinitionOverAllSeeds) {
+namespace {
+
+struct Definition {
+  double value = 0, p99 = 0, mean_reference = 0;
+  std::vector<double> away;
+};
+
+// Every pair of seeds by itself.
+Definition by_pairs(const std::vector<Image>& images, const Image& r, const Mask& mask) {
+  const size_t seeds = images.size();
+  Definition out;
+  out.away.resize(seeds);
+  std::vector<double> pixels;
+  double channels = 0, total = 0;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 0) continue;
+    double pixel = 0;
+    for (int c = 0; c < 3; ++c) {
+      out.mean_reference += channel(r, i, c), ++channels;
+      for (size_t s = 0; s < seeds; ++s) {
+        for (size_t t = s + 1; t < seeds; ++t) {
+          const double d = std::abs(channel(images[s], i, c) - channel(images[t], i, c));
+          out.away[s] += d, out.away[t] += d;
+          pixel += d, total += d;
+        }
+      }
+    }
+    pixels.push_back(pixel);
+  }
+  out.mean_reference /= channels;
+  const double pairs = static_cast<double>(seeds * (seeds - 1)) / 2;
+  out.value = total / pairs / channels / out.mean_reference;
+  out.p99 = sorted_quantile(pixels, 0.99) / 3 / pairs / out.mean_reference;
+  for (double& d : out.away) d /= static_cast<double>(seeds - 1) * channels * out.mean_reference;
+  return out;
+}
+
+std::vector<Image> noisy(size_t seeds, uint32_t size, std::mt19937* random) {
+  std::normal_distribution<float> noise(100, 10);
+  std::vector<Image> images;
+  for (size_t s = 0; s < seeds; ++s) {
+    Image x(size, size);
+    for (auto& p : x.pixels) p = {noise(*random), noise(*random), noise(*random)};
+    images.push_back(std::move(x));
+  }
+  return images;
+}
+
+}  // namespace
+
+TEST(StaticFlicker, IsTheDefinitionOverAllPairs) {
   const std::tuple<uint32_t, uint32_t, size_t> sizes[] = {{1, 1, 2}, {7, 3, 8}, {19, 11, 5}};
   for (const auto& [w, h, seeds] : sizes) {
     std::mt19937 random(w);
@@ -42,103 +92,96 @@ TEST(StaticFlicker, IsTheDefinitionOverAllSeeds) {
     for (size_t i = 0; i < mask.size(); ++i) mask[i] = i == 0 || random() % 4 != 0;
     std::vector<Image> images;
     for (size_t s = 0; s < seeds; ++s) images.push_back(random_image(w, h, &random));
-    StaticFlickerMeter meter(r, mask);
-    for (const Image& x : images) meter.add(x);
-    double mean_r = 0, n = 0, total = 0;
-    std::vector<double> of_pixels, off(seeds);
-    for (size_t i = 0; i < mask.size(); ++i) {
-      if (mask[i] == 0) continue;
-      double of_pixel = 0;
-      for (int c = 0; c < 3; ++c) {
-        mean_r += channel(r, i, c), ++n;
-        double mean = 0, square = 0;
-        for (const Image& x : images) mean += channel(x, i, c) / static_cast<double>(seeds);
-        for (size_t s = 0; s < seeds; ++s) {
-          const double d = channel(images[s], i, c) - mean;
-          square += d * d;
-          off[s] += std::abs(d);
-        }
-        of_pixel += std::sqrt(square / static_cast<double>(seeds - 1)) / 3;
-      }
-      of_pixels.push_back(of_pixel);
-      total += 3 * of_pixel;
-    }
-    mean_r /= n;
-    const StaticFlicker f = meter.finish().value();
-    EXPECT_NEAR(f.value, total / n / mean_r, 1e-12);
-    EXPECT_NEAR(f.p99, sorted_quantile(of_pixels, 0.99) / mean_r, 1e-12);
-    EXPECT_NEAR(f.worst, *std::ranges::max_element(of_pixels) / mean_r, 1e-12);
-    EXPECT_NEAR(f.mean_reference, mean_r, 1e-12);
-    for (size_t s = 0; s < seeds; ++s)
-      EXPECT_NEAR(meter.deviation(images[s]).value(), off[s] / n / mean_r, 1e-12);
+    const StaticFlicker f = static_flicker(images, r, mask).value();
+    const Definition expected = by_pairs(images, r, mask);
+    EXPECT_NEAR(f.value, expected.value, 1e-12);
+    EXPECT_NEAR(f.p99, expected.p99, 1e-12);
+    EXPECT_NEAR(f.mean_reference, expected.mean_reference, 1e-12);
+    ASSERT_EQ(f.series.size(), seeds);
+    for (size_t s = 0; s < seeds; ++s) EXPECT_NEAR(f.series[s], expected.away[s], 1e-12);
   }
 }
 
 TEST(StaticFlicker, ByHand) {
-  const Image r(2, 1, glm::vec3(2));
-  StaticFlickerMeter meter(r);
-  for (const float v : {1.0f, 2.0f, 6.0f}) {
+  std::vector<Image> images;
+  for (const float v : {6.0f, 1.0f, 2.0f}) {
     Image x(2, 1, glm::vec3(5));
     x.pixels[1] = glm::vec3(v);
-    meter.add(x);
+    images.push_back(x);
   }
-  // Deviations from the mean 3: −2, −1, 3; variance 14 / 2.
-  const StaticFlicker f = meter.finish().value();
-  EXPECT_DOUBLE_EQ(f.value, std::sqrt(7.0) / 2 / 2);
-  EXPECT_DOUBLE_EQ(f.worst, std::sqrt(7.0) / 2);
-  EXPECT_EQ(f.worst_pixel, glm::uvec2(1, 0));
-  Image last(2, 1, glm::vec3(5));
-  last.pixels[1] = glm::vec3(6);
-  EXPECT_DOUBLE_EQ(meter.deviation(last).value(), 3 / 2.0 / 2);
+  // Of the second pixel: 5, 4 and 1 apart; over two pixels and a reference of 2.
+  const StaticFlicker f = static_flicker(images, Image(2, 1, glm::vec3(2))).value();
+  EXPECT_DOUBLE_EQ(f.value, 10.0 / 3 / 2 / 2);
+  EXPECT_DOUBLE_EQ(f.series[0], 4.5 / 2 / 2);
+  EXPECT_DOUBLE_EQ(f.series[1], 3.0 / 2 / 2);
 }
 
 TEST(StaticFlicker, SeedsThatAreAlikeHaveNoneToTheBit) {
   std::mt19937 random(6);
   const Image x = random_image(13, 9, &random);
-  StaticFlickerMeter meter(x);
-  for (int s = 0; s < 8; ++s) meter.add(x);
-  EXPECT_EQ(meter.finish()->value, 0.0);
-  EXPECT_EQ(meter.finish()->p99, 0.0);
-  EXPECT_EQ(meter.deviation(x), 0.0);
+  const StaticFlicker f = static_flicker(std::vector<Image>(8, x), x).value();
+  EXPECT_EQ(f.value, 0.0);
+  EXPECT_EQ(f.p99, 0.0);
+  EXPECT_EQ(f.series, std::vector<double>(8, 0.0));
 }
 
-// The root of the unbiased variance of eight Gaussian samples is 0.9650 of σ in the mean.
-TEST(StaticFlicker, OfNoiseIsItsDeviation) {
+// What it is of few seeds, it is of many: 2/√π of the deviation of Gaussian noise.
+TEST(StaticFlicker, OfNoiseIsTheSameForAnyNumberOfSeeds) {
   std::mt19937 random(7);
-  std::normal_distribution<float> noise(100, 10);
-  StaticFlickerMeter meter(Image(64, 64, glm::vec3(50)));
-  for (int s = 0; s < 8; ++s) {
-    Image x(64, 64);
-    for (auto& p : x.pixels) p = {noise(random), noise(random), noise(random)};
-    meter.add(x);
+  for (const size_t seeds : {2u, 3u, 8u}) {
+    const double value = static_flicker(noisy(seeds, 64, &random), Image(64, 64, glm::vec3(50)))->value;
+    // One pair's distance has a deviation of 0.853 σ; 12288 channels.
+    EXPECT_NEAR(value, 0.2 * 1.1284, 4 * 0.2 * 0.853 / std::sqrt(12288)) << seeds << " seeds";
   }
-  // The standard error of the mean over 12288 channels is 0.262 · 0.2 / √12288 = 0.0005.
-  EXPECT_NEAR(meter.finish()->value, 0.2 * 0.9650, 4 * 0.0005);
+}
+
+// One pixel in a thousand has a spike in any one seed: a standard deviation of 4 seeds would see half of it.
+TEST(StaticFlicker, OfRareSpikesIsTheSameForAnyNumberOfSeeds) {
+  std::mt19937 random(8);
+  std::bernoulli_distribution spike(0.001);
+  for (const size_t seeds : {2u, 4u, 16u}) {
+    std::vector<Image> images(seeds, Image(256, 256, glm::vec3(1)));
+    double spikes = 0;
+    for (Image& x : images)
+      for (auto& p : x.pixels)
+        if (spike(random)) p = glm::vec3(101), ++spikes;
+    const double share = spikes / static_cast<double>(seeds) / 65536;
+    EXPECT_NEAR(static_flicker(images, Image(256, 256, glm::vec3(1)))->value, 100 * 2 * share * (1 - share),
+                0.02 * 100 * 2 * share)
+        << seeds << " seeds";
+  }
+}
+
+// Leaving one seed out after the other.
+TEST(StaticFlicker, PseudovaluesAreTheJackknifes) {
+  std::mt19937 random(9);
+  const std::vector<Image> images = noisy(6, 5, &random);
+  const Image r(5, 5, glm::vec3(50));
+  const StaticFlicker all = static_flicker(images, r).value();
+  ASSERT_EQ(all.pseudovalues.size(), 6u);
+  for (size_t s = 0; s < images.size(); ++s) {
+    std::vector<Image> others = images;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(s));
+    EXPECT_NEAR(all.pseudovalues[s], 6 * all.value - 5 * static_flicker(others, r)->value, 1e-12);
+  }
+  EXPECT_TRUE(static_flicker(std::span(images).first(2), r)->pseudovalues.empty());
 }
 
 TEST(StaticFlicker, RefusesWhatItCannotTell) {
   const Image r(3, 2, glm::vec3(1));
-  StaticFlickerMeter meter(r);
-  EXPECT_THROW(meter.finish(), Error);
-  meter.add(r);
-  EXPECT_THROW(meter.finish(), Error) << "one seed";
-  EXPECT_THROW(meter.deviation(r), Error);
-  EXPECT_THROW(meter.add(Image(2, 3)), Error);
+  EXPECT_THROW(static_flicker({}, r), Error);
+  EXPECT_THROW(static_flicker(std::vector<Image>{r}, r), Error) << "one seed";
+  EXPECT_THROW(static_flicker(std::vector<Image>{r, Image(2, 3)}, r), Error);
   Image bad = r;
   bad.at(2, 1).z = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(meter.add(bad), Error);
-  EXPECT_THROW(StaticFlickerMeter{bad}, Error);
-  EXPECT_THROW(StaticFlickerMeter(r, Mask(6, 0)), Error);
-  EXPECT_THROW(StaticFlickerMeter(Image{}), Error);
-  meter.add(Image(3, 2, glm::vec3(3)));
-  EXPECT_DOUBLE_EQ(meter.finish()->value, std::sqrt(2.0));
-  StaticFlickerMeter black(Image(3, 2));
-  black.add(r);
-  black.add(r);
-  EXPECT_FALSE(black.finish());
-  EXPECT_FALSE(black.deviation(r));
+  EXPECT_THROW(static_flicker(std::vector<Image>{r, bad}, r), Error);
+  EXPECT_THROW(static_flicker(std::vector<Image>{r, r}, bad), Error);
+  EXPECT_THROW(static_flicker(std::vector<Image>{r, r}, r, Mask(6, 0)), Error);
+  EXPECT_THROW(static_flicker(std::vector<Image>{{}, {}}, Image{}), Error);
+  EXPECT_DOUBLE_EQ(static_flicker(std::vector<Image>{r, Image(3, 2, glm::vec3(3))}, r)->value, 2);
+  EXPECT_FALSE(static_flicker(std::vector<Image>{r, r}, Image(3, 2))) << "black";
 }
 
 TEST(StaticFlicker, TheFormulaIsNamed) {
-  EXPECT_EQ(static_flicker_formula().id, "flicker-static-mean-reference");
+  EXPECT_EQ(static_flicker_formula().id, "flicker-static-pairs-mean-reference");
 }

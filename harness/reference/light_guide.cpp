@@ -64,6 +64,13 @@ void LightGuide::build(const Table& weights, Tile* tile) {
   }
 }
 
+void LightGuide::learn_from(const LightGuide& other) {
+  for (size_t tile = 0; tile < tiles_.size(); ++tile)
+    for (size_t cell = 0; cell < tiles_[tile].learned.size(); ++cell)
+      tiles_[tile].learned[cell] += other.tiles_.at(tile).learned[cell];
+  for (uint32_t tile = 0; tile < tiles(); ++tile) learn(tile);
+}
+
 void LightGuide::learn(uint32_t tile) {
   // The tile's own, and a quarter of its neighbours'.
   Table weights{};

@@ -27,6 +27,8 @@ class LightGuide {
 
   // Adds to what a cell has contributed to a tile. Different tiles may be taught at the same time.
   void teach(uint32_t tile, uint32_t cell, float contribution) { tiles_[tile].learned[cell] += contribution; }
+  // Adds all that another guide of the same tiles was taught, and makes every tile's density anew.
+  void learn_from(const LightGuide& other);
   // Makes a tile's density from all it was taught and its neighbours were. Tiles may learn at the same time.
   void learn(uint32_t tile);
 

@@ -80,7 +80,7 @@ struct ReferenceResult {
 // without bias. A computation teaches itself; frames that differ little but are all taught by one of them
 // also take the same samples, and have their noise in common.
 struct Guidance {
-  std::string taught_by;  // Scene::hash
+  std::string taught_by;  // Scene::hash; of several poses, hash_of_teachers()
   LightGuide light, photons;
   double sharp = 0;  // the share of the light's flux that sharp lobes reflect
 };

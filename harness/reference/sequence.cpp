@@ -1,31 +1,64 @@
 #include "reference/sequence.h"
 
+#include <algorithm>
+
+#include "base/hash.h"
 #include "reference/cache.h"
 #include "scene/animation.h"
 
 namespace vsglbench {
 namespace {
 
-Scene first_frame(const Scene& scene) {
-  Scene first = scene;
-  set_frame(&first, 0);
-  return first;
+constexpr uint32_t kMostTeachers = 4;
+
+Scene posed(const Scene& scene, uint32_t frame) {
+  Scene pose = scene;
+  set_frame(&pose, frame);
+  return pose;
 }
 
 }  // namespace
 
+std::vector<uint32_t> teachers(uint32_t frames) {
+  const uint32_t count = std::min(frames, kMostTeachers);
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; i < count; ++i) out.push_back(i == 0 ? 0 : i * (frames - 1) / (count - 1));
+  return out;
+}
+
+std::string hash_of_teachers(const Scene& scene) {
+  Hasher hasher;
+  hasher.text("vsglbench.teachers");
+  for (const uint32_t frame : teachers(frame_count(scene))) hasher.text(posed(scene, frame).hash);
+  return hasher.hex();
+}
+
+Guidance learn_from_teachers(const Scene& scene, const ReferenceParameters& parameters) {
+  std::optional<Guidance> all;
+  for (const uint32_t frame : teachers(frame_count(scene))) {
+    const Scene pose = posed(scene, frame);
+    Guidance one = learn_guidance(Tracer(pose), parameters);
+    if (!all) {
+      all = std::move(one);
+      continue;
+    }
+    all->light.learn_from(one.light);
+    all->photons.learn_from(one.photons);
+    all->sharp = std::max(all->sharp, one.sharp);
+  }
+  all->taught_by = hash_of_teachers(scene);
+  return *std::move(all);
+}
+
 ReferenceSequence::ReferenceSequence(const Scene& scene, const ReferenceParameters& parameters)
     : scene_(scene), parameters_(parameters) {
   const Moved& moves = scene.animation.moves;
-  if (!moves.objects.empty() && !moves.camera && !moves.light) teacher_ = first_frame(scene).hash;
+  if (!moves.objects.empty() && !moves.camera && !moves.light) teachers_ = hash_of_teachers(scene);
 }
 
 const Guidance* ReferenceSequence::guidance() {
-  if (teacher_.empty()) return nullptr;
-  if (!guidance_) {
-    const Scene first = first_frame(scene_);
-    guidance_ = learn_guidance(Tracer(first), parameters_);
-  }
+  if (teachers_.empty()) return nullptr;
+  if (!guidance_) guidance_ = learn_from_teachers(scene_, parameters_);
   return &*guidance_;
 }
 

@@ -4,15 +4,23 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reference/reference.h"
 #include "scene/scene.h"
 
 namespace vsglbench {
 
+// The frames that teach the others: the first, the last and two between, fewer of a short animation.
+std::vector<uint32_t> teachers(uint32_t frames);
+std::string hash_of_teachers(const Scene& scene);
+Guidance learn_from_teachers(const Scene& scene, const ReferenceParameters& parameters);
+
 // Random numbers are the same in every frame (random.h). Where nothing but objects moves, all frames also go
-// by what the first one teaches of where light comes from (Guidance), and so take the same samples: what an
-// object does not change keeps its noise, and the difference between two frames has little of it. A camera or
+// by what a few of them teach of where light comes from (Guidance), and so take the same samples: what an
+// object does not change keeps its noise, and the difference between two frames has little of it. The first
+// frame alone would leave out where the objects go: by a quarter more noise there than a frame has that
+// teaches itself. A camera or
 // light that moves leaves nothing to share, and each frame teaches itself; it then shares its reference with
 // the still scene of its pose. Frames of equal pose have equal images to the bit.
 class ReferenceSequence {
@@ -21,11 +29,10 @@ class ReferenceSequence {
   ReferenceSequence(const Scene& scene, const ReferenceParameters& parameters);
 
   // Of the present pose, as the cache knows it. The other frames but the first have no part in it.
-  std::string hash() const { return reference_hash(scene_, parameters_, teacher_); }
+  std::string hash() const { return reference_hash(scene_, parameters_, teachers_); }
 
   // The reference of the present pose: from the cache, or by tracer(), which is called only then and must be
-  // of `scene` in this pose. The first that is not cached builds another tracer for a moment, to be taught by
-  // the first frame. Errors as compute_reference().
+  // of `scene` in this pose. The first that is not cached builds other tracers for a moment, to be taught. Errors as compute_reference().
   ReferenceResult present(const std::function<const Tracer&()>& tracer, bool* from_cache = nullptr);
 
  private:
@@ -33,7 +40,7 @@ class ReferenceSequence {
 
   const Scene& scene_;
   const ReferenceParameters parameters_;
-  std::string teacher_;  // hash of the first frame; empty: each frame teaches itself
+  std::string teachers_;  // hash_of_teachers(); empty: each frame teaches itself
   std::optional<Guidance> guidance_;
 };
 

@@ -53,14 +53,13 @@ class Sequence : public ::testing::Test {
 TEST_F(Sequence, EachFrameIsTheReferenceOfItsPose) {
   Scene scene = test::ring_box();
   const ReferenceParameters parameters = small();
-  const Scene first = scene;
-  const Guidance guidance = learn_guidance(Tracer(first), parameters);
+  const Guidance guidance = learn_from_teachers(scene, parameters);
   std::vector<Image> images;
   reference_sequence(&scene, parameters, [&](const SequenceFrame& f) {
     EXPECT_EQ(f.frame, images.size());
     // Frames 6 and 7 are back where frame 0 was, and have its reference.
     EXPECT_EQ(f.from_cache, f.frame >= 6);
-    EXPECT_EQ(f.reference.hash, reference_hash(scene, parameters, first.hash));
+    EXPECT_EQ(f.reference.hash, reference_hash(scene, parameters, hash_of_teachers(scene)));
     images.push_back(f.reference.mean);
     // A new tracer's image of the same pose, to the bit.
     EXPECT_TRUE(
@@ -135,14 +134,15 @@ TEST(CommonRandomNumbers, FramesOfEqualPoseAreEqualToTheBit) {
 
 constexpr int kSeeds = 16;
 
-// Of one frame, by a seed each, taught by `first`.
-std::vector<Image> images_of(const Scene& scene, const Scene& first) {
+// Of one frame, by a seed each, taught by the teachers or by itself.
+std::vector<Image> images_of(const Scene& scene, bool shared = true) {
   ReferenceParameters p = small();
   const Tracer tracer(scene);
   std::vector<Image> images;
   for (p.seed = 1; p.seed <= kSeeds; ++p.seed) {
-    const Guidance guidance = learn_guidance(Tracer(first), p);
-    images.push_back(compute_reference(tracer, p, nullptr, &guidance).mean);
+    std::optional<Guidance> guidance;
+    if (shared) guidance = learn_from_teachers(scene, p);
+    images.push_back(compute_reference(tracer, p, nullptr, guidance ? &*guidance : nullptr).mean);
   }
   return images;
 }
@@ -173,14 +173,29 @@ Variances variances(const std::vector<Image>& a, const std::vector<Image>& b) {
 TEST(CommonRandomNumbers, NoiseIsCommonToFrames) {
   for (const auto& [frames, most] : {std::pair(602u, 0.01), std::pair(62u, 0.2)}) {
     Scene scene = test::ring_box(frames);
-    const Scene first = scene;
     set_frame(&scene, 30);
-    const std::vector<Image> before = images_of(scene, first);
+    const std::vector<Image> before = images_of(scene);
     EXPECT_TRUE(set_frame(&scene, 31).any());
-    const Variances v = variances(before, images_of(scene, first));
+    const Variances v = variances(before, images_of(scene));
     EXPECT_GT(v.both, 0);
     EXPECT_LT(v.difference / v.both, most) << frames;
   }
+}
+
+// In any frame, what several teach is about as good as what it would teach itself.
+TEST(CommonRandomNumbers, AFrameIsHardlyNoisierForWhatItShares) {
+  Scene scene = test::ring_box(16);
+  for (const uint32_t frame : {0u, 3u, 8u}) {
+    set_frame(&scene, frame);
+    const std::vector<Image> shared = images_of(scene), own = images_of(scene, false);
+    EXPECT_LT(variances(shared, shared).both, 1.15 * variances(own, own).both) << frame;
+  }
+}
+
+TEST(Teachers, AreSpreadOverTheFrames) {
+  EXPECT_EQ(teachers(1), (std::vector<uint32_t>{0}));
+  EXPECT_EQ(teachers(2), (std::vector<uint32_t>{0, 1}));
+  EXPECT_EQ(teachers(16), (std::vector<uint32_t>{0, 5, 10, 15}));
 }
 
 // Bytes that this process holds.

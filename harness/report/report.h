@@ -192,9 +192,10 @@ struct SeedResult {
 };
 
 // How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
-// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds,
-// and worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image
-// of seed i is from the mean of all, and worst_frame the seed of its largest; it has no interval.
+// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds, and
+// worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image of
+// seed i is from those of the others, and worst_frame the seed of its largest; its interval is the jackknife's
+// over seeds, absent for two.
 struct FlickerSeries {
   double value = 0;
   double p99 = 0;  // 99th percentile over pixels; of `derivative` the mean over seeds
@@ -202,12 +203,14 @@ struct FlickerSeries {
   std::vector<double> series;
   std::optional<Interval> ci95;
   std::string formula;         // MetricFormula::id
-  std::vector<double> values;  // of `derivative`, of seed 0, 1, …; empty in a report of old, and of `static`
+  std::vector<double> values;  // of seed 0, 1, …; of `static`, the jackknife's pseudovalues
 };
 
-// The reference's detail that is kept (image/detail.h), as FlickerSeries.
+// The reference's detail that is kept (image/detail.h), as FlickerSeries. The interval is over the method's
+// seeds alone: the references' noise, which all cases share, is not in it.
 struct DetailResult {
   double value = 0;
+  double gain = 0;  // mean(x) / mean(r) over all frames
   std::optional<Interval> ci95;
   std::string formula;
   std::vector<double> values;
@@ -218,6 +221,10 @@ struct Temporal {
   FlickerSeries derivative;
   std::optional<FlickerSeries> still;  // "static" in the file; absent for a single seed
   std::optional<DetailResult> detail;  // absent where the references have none
+  // What `derivative` is of two images that no method makes, by the same references: of a perfect one, for the
+  // references' own noise, and of a black one. A value near the first is noise, and one near the second comes
+  // of light that is missing.
+  double noise_floor = 0, unlit = 0;
   uint64_t frames = 0, seeds = 0;
   std::vector<std::string> references;  // their hashes, one a frame
 };

@@ -222,6 +222,7 @@ void fields(auto& a, Is<FlickerSeries> auto& v) {
 
 void fields(auto& a, Is<DetailResult> auto& v) {
   a("value", v.value);
+  a("gain", v.gain);
   a("ci95", v.ci95);
   a("formula", v.formula);
   a.unless_empty("values", v.values);
@@ -231,6 +232,8 @@ void fields(auto& a, Is<Temporal> auto& v) {
   a("derivative", v.derivative);
   a("static", v.still);
   a("detail", v.detail);
+  a("noise_floor", v.noise_floor);
+  a("unlit", v.unlit);
   a("frames", v.frames);
   a("seeds", v.seeds);
   a("references", v.references);

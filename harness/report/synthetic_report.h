@@ -46,7 +46,9 @@ inline CaseResult synthetic_case(const std::string& id) {
   c.accuracy->quantiles = ErrorQuantiles{5, 80, 150};
   c.temporal = Temporal{{0.1, 0.2, 3, {0.1, 0.1, 0.2}, Interval{0.09, 0.11}, "a-formula", {0.09, 0.11}},
                         FlickerSeries{0.05, 0.1, 1, {0.05, 0.1}, std::nullopt, "b-formula", {}},
-                        DetailResult{0.9, Interval{0.8, 1}, "c-formula", {0.8, 1}},
+                        DetailResult{0.9, 0.95, Interval{0.8, 1}, "c-formula", {0.8, 1}},
+                        0.01,
+                        0.3,
                         4,
                         2,
                         {"r0", "r1", "r2", "r3"}};

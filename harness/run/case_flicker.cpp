@@ -7,6 +7,8 @@
 namespace vsglbench {
 namespace {
 
+constexpr uint32_t kMaxStaticSeeds = 32;  // their images are held together
+
 std::optional<Interval> interval_of(const MeanEstimate& estimate) {
   return estimate.known ? std::optional(estimate.ci95) : std::nullopt;
 }
@@ -22,7 +24,8 @@ Error black() { return fail(ErrorKind::case_failed, "the references are black: f
 CaseFlicker::CaseFlicker(CaseRun& run, uint32_t seeds) : run_(run), seeds_(run.seeds() > 1 ? seeds : 1) {}
 
 std::optional<CaseRun::Look> CaseFlicker::look(uint32_t frame, const ReferenceResult& reference) {
-  const size_t wanted = frame == 0 ? std::max<size_t>(run_.seeds(), seeds_.size()) : seeds_.size();
+  const size_t still = frame == 0 ? std::min(run_.seeds(), kMaxStaticSeeds) : 0;
+  const size_t wanted = std::max(still, seeds_.size());
   std::optional<CaseRun::Look> first;
   std::vector<Image> frozen;
   for (uint32_t seed = 0; seed < wanted; ++seed) {
@@ -33,7 +36,7 @@ std::optional<CaseRun::Look> CaseFlicker::look(uint32_t frame, const ReferenceRe
       seeds_[seed].flicker.add(look->image, reference.mean, look->mask);
       seeds_[seed].detail.add(look->image, reference.half[0], reference.half[1], look->mask);
     }
-    if (frame == 0 && seed < run_.seeds()) frozen.push_back(look->image);
+    if (seed < still) frozen.push_back(look->image);
     if (seed == 0) first = std::move(look);
   }
   if (frozen.size() > 1) look_at_frozen(frozen, first->mask, reference);
@@ -43,15 +46,15 @@ std::optional<CaseRun::Look> CaseFlicker::look(uint32_t frame, const ReferenceRe
 
 void CaseFlicker::look_at_frozen(const std::vector<Image>& images, const Mask& mask,
                                  const ReferenceResult& reference) {
-  StaticFlickerMeter meter(reference.mean, mask);
-  for (const Image& image : images) meter.add(image);
-  const auto found = meter.finish();
+  const auto found = static_flicker(images, reference.mean, mask);
   if (!found) throw black();
   frozen_.emplace();
   frozen_->value = found->value;
   frozen_->p99 = found->p99;
+  if (!found->pseudovalues.empty()) frozen_->ci95 = interval_of(mean_ci95(found->pseudovalues));
   frozen_->formula = static_flicker_formula().id;
-  for (const Image& image : images) frozen_->series.push_back(*meter.deviation(image));
+  frozen_->series = found->series;
+  frozen_->values = found->pseudovalues;
   frozen_->worst_frame = place_of_largest(frozen_->series);
 }
 
@@ -84,14 +87,15 @@ Temporal CaseFlicker::finish() const {
 }
 
 std::optional<DetailResult> CaseFlicker::detail() const {
-  std::vector<double> values;
+  std::vector<double> values, gains;
   for (const Seed& seed : seeds_) {
     const auto found = seed.detail.finish();
     if (!found) return std::nullopt;
     values.push_back(found->value);
+    gains.push_back(found->gain);
   }
   const MeanEstimate estimate = mean_ci95(values);
-  return DetailResult{estimate.mean, interval_of(estimate), detail_formula().id, values};
+  return DetailResult{estimate.mean, mean_ci95(gains).mean, interval_of(estimate), detail_formula().id, values};
 }
 
 }  // namespace vsglbench

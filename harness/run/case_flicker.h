@@ -12,14 +12,14 @@ namespace vsglbench {
 
 class CaseFlicker {
  public:
-  // Over `seeds` seeds, and of frame 0 over as many as the case is looked at with; over one of a case that
-  // does not draw its lights.
+  // Over `seeds` seeds, and of frame 0 over as many as the case is looked at with, of which the first 32 tell
+  // its static flicker; over one of a case that does not draw its lights.
   CaseFlicker(CaseRun& run, uint32_t seeds);
   CaseRun& run() const { return run_; }
 
   // Renders the pose that the scene is in. The image of seed 0 and its mask; nothing where the case fails.
   std::optional<CaseRun::Look> look(uint32_t frame, const ReferenceResult& reference);
-  // Throws Error(case_failed) where the references are black.
+  // All but what the references alone tell. Throws Error(case_failed) where they are black.
   Temporal finish() const;
 
   // Of seed 0.

@@ -24,7 +24,7 @@ struct ReferenceSettings {
 // Flicker is measured over the first frames of a scene in motion.
 struct MotionSettings {
   uint32_t frames = 0;  // at most; 0: all that the scene has
-  uint32_t seeds = 2;   // of every randomised method; each renders all frames
+  uint32_t seeds = 4;   // of every randomised method; each renders all frames
 };
 
 struct Config {

@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <numeric>
 #include <set>
@@ -27,7 +28,7 @@ TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
   ASSERT_TRUE(cases[0].temporal);
   const Temporal& t = *cases[0].temporal;
   EXPECT_EQ(t.frames, 5u);
-  EXPECT_EQ(t.seeds, 2u);
+  EXPECT_EQ(t.seeds, 4u);
   EXPECT_EQ(std::set<std::string>(t.references.begin(), t.references.end()).size(), 5u);
   ASSERT_EQ(t.derivative.series.size(), 4u);
   EXPECT_GT(t.derivative.value, 0);
@@ -42,6 +43,8 @@ TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
   ASSERT_TRUE(t.still);
   EXPECT_EQ(t.still->series.size(), 3u);
   EXPECT_GT(t.still->value, 0);
+  ASSERT_TRUE(t.still->ci95);
+  EXPECT_TRUE(t.still->ci95->contains(t.still->value));
   ASSERT_TRUE(t.detail);
   ASSERT_EQ(t.derivative.values.size(), 2u);
   EXPECT_NEAR(0.5 * (t.derivative.values[0] + t.derivative.values[1]), t.derivative.value, 1e-12);
@@ -69,6 +72,31 @@ TEST_F(MotionTest, FramesAreExported) {
   EXPECT_TRUE(contains(done.command, "--fps 4 --display standard_4k"));
   config_.erase("motion");
   EXPECT_THROW(export_frames(out_, run().at(0), 2, to, "standard_4k"), Error);
+}
+
+// By the frames on the disk, and the references anew of another seed: an image that is as good as the
+// reference flickers as much as the floor says, and a black one as `unlit` says.
+TEST_F(MotionTest, TheFloorIsWhatAPerfectImageHas) {
+  use(ring_scene(4));
+  const auto references = [&](int seed) {
+    config_["reference"]["seed"] = seed;
+    const CaseResult c = run().at(0);
+    std::vector<MotionFrame> frames;
+    for (uint32_t t = 0; t < 4; ++t)
+      frames.push_back(read_motion_frame(out_ / c.images.at("reference_frames"), t));
+    return std::pair(*c.temporal, frames);
+  };
+  const auto [here, frames] = references(1);
+  const auto [there, others] = references(2);
+  DerivativeFlickerMeter perfect, black;
+  for (uint32_t t = 0; t < 4; ++t) {
+    // Two images that are equally noisy differ by √2 times the noise of one.
+    perfect.add(others[t].image, frames[t].image, frames[t].mask);
+    black.add(Image(frames[t].image.width, frames[t].image.height), frames[t].image, frames[t].mask);
+  }
+  EXPECT_GT(here.noise_floor, 0);
+  EXPECT_NEAR(perfect.finish()->value / std::sqrt(2.0), here.noise_floor, 0.15 * here.noise_floor);
+  EXPECT_NEAR(here.unlit, black.finish()->value, 1e-6 * here.unlit);
 }
 
 // The frames on the disk are those that were measured; a flicker that is planted in one of them is found

@@ -58,12 +58,17 @@ void SceneMotion::pose(uint32_t frame) {
   for (auto& [key, references] : references_) references.present.reset();
 }
 
+SceneMotion::References& SceneMotion::references_of(const CaseRun& run) {
+  const ReferenceParameters p = reference_parameters(config_, run.description());
+  return references_[{p.width, p.height, p.occlusion}];
+}
+
 const ReferenceResult& SceneMotion::reference_of(const CaseRun& run, uint32_t frame) {
   const Case& c = run.description();
-  const ReferenceParameters p = reference_parameters(config_, c);
-  References& r = references_[{p.width, p.height, p.occlusion}];
+  References& r = references_of(run);
   if (r.error) throw *r.error;
   if (r.present) return *r.present;
+  const ReferenceParameters p = reference_parameters(config_, c);
   observer_.now({c.id, fmt::format("computing its reference of frame {}", frame), false});
   if (!r.sequence) r.sequence = std::make_unique<ReferenceSequence>(scene_, p);
   const Stopwatch watch;
@@ -74,6 +79,8 @@ const ReferenceResult& SceneMotion::reference_of(const CaseRun& run, uint32_t fr
     throw;
   }
   wall_->references_s += watch.seconds();
+  r.halves.add(r.present->half[0], r.present->half[1], r.present->mask);
+  r.unlit.add(Image(p.width, p.height), r.present->mean, r.present->mask);
   images_.write(c, frame, *r.present);
   return *r.present;
 }
@@ -91,12 +98,24 @@ void SceneMotion::look(CaseFlicker& flicker, uint32_t frame) {
       });
 }
 
+Temporal SceneMotion::temporal_of(const CaseFlicker& flicker) {
+  Temporal out = flicker.finish();
+  const References& r = references_of(flicker.run());
+  const auto halves = r.halves.finish(), unlit = r.unlit.finish();
+  if (!halves || !unlit)
+    throw fail(ErrorKind::case_failed, "the references are black: flicker has no measure");
+  // The halves differ by twice the noise of their mean.
+  out.noise_floor = halves->value * halves->mean_reference / 2 / unlit->mean_reference;
+  out.unlit = unlit->value;
+  return out;
+}
+
 // Pictures that can't be drawn cost the case in the end, and not its numbers.
 void SceneMotion::finish(CaseFlicker& flicker) {
   CaseRun& run = flicker.run();
   if (run.failed()) return;
   observer_.now({run.description().id, "drawing its flicker", false});
-  guarded([&] { run.add_temporal(flicker.finish()); },
+  guarded([&] { run.add_temporal(temporal_of(flicker)); },
           [&](ErrorKind kind, const std::string& message) { run.fail_with(kind, message); });
   if (run.failed()) return;
   guarded(

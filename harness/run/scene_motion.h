@@ -34,6 +34,7 @@ class SceneMotion {
     std::unique_ptr<ReferenceSequence> sequence;
     std::optional<ReferenceResult> present;
     std::optional<Error> error;
+    DerivativeFlickerMeter halves, unlit;  // of one half of the samples beside the other; of a black image
   };
   using Key = std::tuple<uint32_t, uint32_t, bool>;
   uint32_t frames() const;
@@ -41,6 +42,8 @@ class SceneMotion {
   const ReferenceResult& reference_of(const CaseRun& run, uint32_t frame);
   void look(CaseFlicker& flicker, uint32_t frame);
   void finish(CaseFlicker& flicker);
+  Temporal temporal_of(const CaseFlicker& flicker);
+  References& references_of(const CaseRun& run);
   Scene& scene_;
   Stage& stage_;
   GroundTruth& truth_;
