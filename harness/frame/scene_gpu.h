@@ -17,7 +17,7 @@ namespace vsglbench {
 // Which targets there are beside position and normal.
 struct Channels {
   bool geometric_normal = true, diffuse = true, f0 = true;
-  auto operator<=>(const Channels&) const = default;
+  auto operator<=>(const Channels&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14
 };
 
 // The targets of one half, in the order of FieldMaps, and their depth.

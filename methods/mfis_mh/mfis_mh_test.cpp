@@ -88,8 +88,9 @@ double chains_misfit(const oracle::Half& half, uint32_t steps) {
 oracle::Half peaked_half(uint32_t size, float height, float deviation) {
   oracle::Half half = smooth_half(size, size);
   for (uint32_t i = 0; i < size * size; ++i) {
-    const float x = (static_cast<float>(i % size) + 0.5f) / static_cast<float>(size) - 0.61f;
-    const float y = (static_cast<float>(i / size) + 0.5f) / static_cast<float>(size) - 0.37f;
+    const uint32_t column = i % size, row = i / size;
+    const float x = (static_cast<float>(column) + 0.5f) / static_cast<float>(size) - 0.61f;
+    const float y = (static_cast<float>(row) + 0.5f) / static_cast<float>(size) - 0.37f;
     half.pdf[i] = 1 + height * std::exp(-0.5f * (x * x + y * y) / (deviation * deviation));
   }
   return half;
@@ -99,8 +100,9 @@ oracle::Half peaked_half(uint32_t size, float height, float deviation) {
 oracle::Half waved(oracle::Half half, float amplitude) {
   const uint32_t w = half.emitter.width;
   for (size_t i = 0; i < half.pdf.size(); ++i) {
-    const float u = static_cast<float>(i % w) / static_cast<float>(w),
-                v = static_cast<float>(i / w) / static_cast<float>(w);
+    const size_t column = i % w, row = i / w;
+    const float u = static_cast<float>(column) / static_cast<float>(w),
+                v = static_cast<float>(row) / static_cast<float>(w);
     half.pdf[i] *= 1 + amplitude * std::sin(5 * u + 1) * std::cos(4 * v);
   }
   return half;
