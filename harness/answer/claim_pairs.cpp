@@ -100,9 +100,9 @@ std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint
     const auto other = b.find(seed);
     if (other != b.end()) logs[seed] = log - other->second;
   }
-  const auto mean = mean_of_seeds(logs, a.one_mean);
+  const auto mean = mean_of_seeds(logs, a.of_pairs);
   if (!mean) return std::nullopt;
-  return PairRatio{std::move(logs), *mean, a.one_mean};
+  return PairRatio{std::move(logs), *mean, a.of_pairs};
 }
 
 // What is noise in a time may be in either direction.
@@ -248,12 +248,12 @@ std::vector<const ClaimCase*> step_below(const std::string& key, const CaseResul
 bool is_time(const std::string& metric) { return metric.starts_with("time:"); }
 bool is_temporal(const std::string& metric) { return metric.starts_with("temporal."); }
 
-std::optional<Estimate> mean_of_seeds(const std::map<uint64_t, double>& logs, bool one_mean) {
-  if (logs.size() < (one_mean ? 3 : 2)) return std::nullopt;
+std::optional<Estimate> mean_of_seeds(const std::map<uint64_t, double>& logs, bool of_pairs) {
+  if (logs.size() < (of_pairs ? 3 : 2)) return std::nullopt;
   std::vector<double> samples;
   for (const auto& [seed, log] : logs) samples.push_back(log);
   const MeanEstimate mean = mean_ci95(samples);
-  if (!one_mean) return Estimate{mean.mean, mean.ci95};
+  if (!of_pairs) return Estimate{mean.mean, mean.ci95};
   // Each pair's distance is in two of them. The jackknife's pseudovalues (image/static_flicker.h) scatter so
   // much more.
   const auto count = static_cast<double>(samples.size());

@@ -36,7 +36,7 @@ Truth truth_of(const PaperClaim& claim, const Interval& log) {
 Estimate pooled(const std::vector<PairRatio>& pairs) {
   const auto count = static_cast<double>(pairs.size());
   Estimate mean;
-  const bool one_mean = std::ranges::any_of(pairs, &PairRatio::one_mean);
+  const bool of_pairs = std::ranges::any_of(pairs, &PairRatio::of_pairs);
   std::map<uint64_t, std::pair<double, size_t>> sums;
   for (const PairRatio& p : pairs) {
     mean.value += p.log.value / count;
@@ -50,7 +50,7 @@ Estimate pooled(const std::vector<PairRatio>& pairs) {
   std::erase_if(sums, [&](const auto& s) { return s.second.second < pairs.size(); });
   std::map<uint64_t, double> logs;
   for (const auto& [seed, sum] : sums) logs[seed] = sum.first;
-  return mean_of_seeds(logs, one_mean).value_or(mean);
+  return mean_of_seeds(logs, of_pairs).value_or(mean);
 }
 
 Ruling ruling_of(Truth whole, size_t holding, size_t contrary) {

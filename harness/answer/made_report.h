@@ -18,7 +18,7 @@ struct MadeCase {
   double error = 10;                     // SMAPE, mean over seeds; RMSE is a hundredth
   double bias = 0;
   std::string reference = "0123";
-  // Mean over seeds of temporal.derivative and of the seeds' deviations in temporal.static; 0: still.
+  // Mean over seeds of temporal.derivative and of the seeds' distances in temporal.static; 0: still.
   double flicker = 0;
   double detail = 1;
 };
