@@ -87,6 +87,10 @@ class SchemaChecker {
         "minLength", "pattern",  "items",   "properties", "additionalProperties"};
     return known.count(k) > 0;
   }
+  static bool is_of_type(const Json& v, const Json& schema) {
+    const Json& type = member(schema, "type");
+    return type.is_string() && has_type(v, type.get<std::string>());
+  }
   void check_type(const Json& v, const Json& rule, const std::string& at) {
     const Json types = rule.is_array() ? rule : Json::array({rule});
     for (const auto& t : types) {
@@ -120,6 +124,7 @@ class SchemaChecker {
   }
   void check_alternatives(const Json& v, const Json& alternatives, const std::string& at) {
     std::vector<std::pair<std::string, std::string>> best;
+    std::pair<size_t, bool> most;
     bool first = true;
     for (const auto& alternative : alternatives) {
       std::vector<std::pair<std::string, std::string>> found;
@@ -127,8 +132,9 @@ class SchemaChecker {
                           [&](const std::string& p, const std::string& m) { found.emplace_back(p, m); });
       inner.check(v, alternative, at);
       if (found.empty()) return;
-      // The alternative that fails deepest is the one that was meant.
-      if (first || found.front().first.size() > best.front().first.size()) best = found;
+      // The alternative that fails deepest is the one that was meant; of those, one of the value's type.
+      const std::pair rank(found.front().first.size(), is_of_type(v, alternative));
+      if (first || rank > most) best = found, most = rank;
       first = false;
     }
     for (const auto& [p, m] : best) report_(p, m);

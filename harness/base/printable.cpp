@@ -1,21 +1,57 @@
 #include "base/printable.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <string_view>
 
 namespace vsglbench {
+namespace {
 
-std::string printable(std::string text) {
+// A character at the head of a text: what it is, and in how many bytes.
+struct Character {
+  uint32_t code;
+  size_t length;  // 0: its first byte starts none that is well-formed [Unicode 15, table 3-7]
+};
+
+Character first_character(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  for (size_t i = 0; i < text.size(); ++i) {
-    size_t length = byte(i) < 0x20 || byte(i) == 0x7F ? 1 : 0;
-    if (byte(i) == 0xC2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0) length = 2;  // C1
-    if (byte(i) == 0xE2 && byte(i + 1) == 0x80 && byte(i + 2) >= 0xAA && byte(i + 2) <= 0xAE)
-      length = 3;  // U+202A-E
-    if (byte(i) == 0xE2 && byte(i + 1) == 0x81 && byte(i + 2) >= 0xA6 && byte(i + 2) <= 0xA9)
-      length = 3;  // U+2066-9
-    if (length > 0) text.replace(i, length, " ");
+  const uint32_t first = byte(0);
+  if (first < 0x80) return {first, 1};
+  const size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+  if (length == 0) return {0, 0};
+  uint32_t code = first & (0x7Fu >> length);
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return {0, 0};
+    code = code << 6 | (byte(i) & 0x3F);
   }
-  return text;
+  const bool shortest = code >= (length == 4 ? 0x10000u : length == 3 ? 0x800u : 0x80u);
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  return {code, shortest && !surrogate && code <= 0x10FFFF ? length : 0};
+}
+
+bool steers(uint32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x202A && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
+}  // namespace
+
+std::string printable(const std::string& text) {
+  std::string out;
+  for (std::string_view rest = text; !rest.empty();) {
+    const Character c = first_character(rest);
+    if (c.length == 0) {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(rest[0]));
+    } else if (steers(c.code)) {
+      out += ' ';
+    } else {
+      out += rest.substr(0, c.length);
+    }
+    rest.remove_prefix(std::max<size_t>(c.length, 1));
+  }
+  return out;
 }
 
 std::string printable_lines(const std::string& text) {

@@ -63,6 +63,17 @@ void run(const RunOptions& options, const std::string& noise, CommandResult* res
   if (too_noisy) throw fail(ErrorKind::case_failed, "{}", *too_noisy);
 }
 
+// Why an option can't take these; nothing where it can. Lists, as --set takes them, too.
+std::string problem_of_effects(const std::string& effects) {
+  if (effects.starts_with('[')) return "";
+  try {
+    parse_effects(effects);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result) {
@@ -95,8 +106,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
     const std::string key = name;
     std::string option = "--" + key;
     std::ranges::replace(option, '_', '-');
-    command->add_option_function<std::string>(
-        option, [=](const std::string& effects) { options->set.push_back(key + "=" + effects); }, help);
+    command
+        ->add_option_function<std::string>(
+            option, [=](const std::string& effects) { options->set.push_back(key + "=" + effects); }, help)
+        ->check([](const std::string& effects) { return problem_of_effects(effects); });
   }
   command
       ->add_flag("--price-effects{8}", options->price_effects,

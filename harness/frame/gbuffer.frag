@@ -15,6 +15,9 @@
 #ifndef SMOOTH_NORMALS
 #define SMOOTH_NORMALS 1
 #endif
+#ifndef NO_LOBE
+#define NO_LOBE 0
+#endif
 #ifndef ALPHA_MASKS
 #define ALPHA_MASKS 1
 #endif
@@ -101,7 +104,9 @@ void main() {
 
   out_position = vec4(position, 1.0);
   out_normal.w = draw.phong_exponent > 0.0 ? -draw.phong_exponent : max(roughness * roughness, 1e-3);
-#if SURFACE_LOBES & DIFFUSE_LOBE
+#if NO_LOBE
+  out_diffuse = vec4(0.0);
+#elif SURFACE_LOBES & DIFFUSE_LOBE
   out_diffuse = vec4(color.rgb * (1.0 - metallic) * (1.0 - 0.04 * draw.specular), 0.0);
 #endif
 #if SURFACE_LOBES & SPECULAR_LOBE

@@ -5,12 +5,23 @@
 #include "shaders/types.h"
 
 namespace vsglbench {
+namespace {
+
+bool has_diffuse(const EffectSet& effects, Half half) {
+  return effects.has(half == Half::gbuffer ? Effect::diffuse_receivers : Effect::diffuse_emitters);
+}
+bool has_specular(const EffectSet& effects, Half half) {
+  return effects.has(half == Half::gbuffer ? Effect::glossy_receivers : Effect::glossy_emitters);
+}
+bool has_no_lobe(const EffectSet& effects, Half half) {
+  return !has_diffuse(effects, half) && !has_specular(effects, half);
+}
+
+}  // namespace
 
 unsigned lobes_of(const EffectSet& effects, Half half) {
-  const bool seen = half == Half::gbuffer;
-  const bool diffuse = effects.has(seen ? Effect::diffuse_receivers : Effect::diffuse_emitters);
-  const bool specular = effects.has(seen ? Effect::glossy_receivers : Effect::glossy_emitters);
-  return (diffuse || !specular ? DIFFUSE_LOBE : 0) | (specular ? SPECULAR_LOBE : 0);
+  if (has_no_lobe(effects, half)) return DIFFUSE_LOBE;
+  return (has_diffuse(effects, half) ? DIFFUSE_LOBE : 0) | (has_specular(effects, half) ? SPECULAR_LOBE : 0);
 }
 
 bool has_face_normals(const EffectSet& effects) {
@@ -31,6 +42,7 @@ ShaderDefines permutation(const EffectSet& effects, Half surfaces, Half lights) 
 ShaderDefines raster_permutation(const EffectSet& effects, Half half) {
   ShaderDefines defines = permutation(effects, half, half);
   defines.erase("LIGHT_LOBES");
+  if (has_no_lobe(effects, half)) defines["NO_LOBE"] = "1";
   for (const auto& [effect, define] :
        {std::pair(Effect::base_color_textures, "BASE_COLOR_TEXTURES"),
         std::pair(Effect::metallic_roughness_textures, "METALLIC_ROUGHNESS_TEXTURES"),

@@ -9,6 +9,8 @@
 // and, of the rasteriser alone,
 //   BASE_COLOR_TEXTURES, METALLIC_ROUGHNESS_TEXTURES, NORMAL_MAPS, SMOOTH_NORMALS, ALPHA_MASKS
 //                               0 without the effect of that name
+//   NO_LOBE                     1 where neither lobe of the half is left: its surfaces reflect nothing, with
+//                               the channels and kernels of a diffuse lobe whose Rd is 0
 #pragma once
 
 #include "gpu/pass_id.h"
@@ -17,7 +19,8 @@
 
 namespace vsglbench {
 
-// Lobes of a half's surfaces, and of the lights made of them, as in shaders/types.h; never none.
+// Lobes of a half's surfaces, and of the lights made of them, as in shaders/types.h; the diffuse one where
+// none is left.
 unsigned lobes_of(const EffectSet& effects, Half half);
 // Whether the shading normals are the faces'.
 bool has_face_normals(const EffectSet& effects);

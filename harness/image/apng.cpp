@@ -1,5 +1,6 @@
 #include "image/apng.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -16,19 +17,23 @@ namespace vsglbench {
 namespace {
 
 constexpr uint32_t kForever = 0, kKeep = 0, kReplace = 0;  // num_plays, dispose_op NONE, blend_op SOURCE
-constexpr uint32_t kDelayNumerator = 100;
+constexpr double kMostOfDelay = 65535;                     // of its numerator and denominator
+
+// Seconds that a frame is shown.
+struct Delay {
+  uint32_t numerator, denominator;
+};
 
 // What comes before a frame's pixels. Control and data chunks are numbered together.
-std::string frame_control(uint32_t* sequence, const Bitmap& bitmap, uint32_t delay_denominator) {
+std::string frame_control(uint32_t* sequence, const Bitmap& bitmap, const Delay& delay) {
   return png_chunk("fcTL", big_endian((*sequence)++) + big_endian(bitmap.width) + big_endian(bitmap.height) +
-                               big_endian(0) + big_endian(0) + big_endian(kDelayNumerator, 2) +
-                               big_endian(delay_denominator, 2) + big_endian(kKeep, 1) +
+                               big_endian(0) + big_endian(0) + big_endian(delay.numerator, 2) +
+                               big_endian(delay.denominator, 2) + big_endian(kKeep, 1) +
                                big_endian(kReplace, 1));
 }
 
 // An ordinary PNG file but for its end, with the animation's chunks where they belong: before IDAT.
-std::string first_frame(const Bitmap& bitmap, uint32_t frames, uint32_t delay_denominator,
-                        uint32_t* sequence) {
+std::string first_frame(const Bitmap& bitmap, uint32_t frames, const Delay& delay, uint32_t* sequence) {
   const std::string encoded = encode_png(bitmap);
   std::string out(kPngSignature);
   bool pixels = false;
@@ -36,7 +41,7 @@ std::string first_frame(const Bitmap& bitmap, uint32_t frames, uint32_t delay_de
     if (chunk.type == "IEND") continue;
     if (chunk.type == "IDAT" && !pixels) {
       out += png_chunk("acTL", big_endian(frames) + big_endian(kForever));
-      out += frame_control(sequence, bitmap, delay_denominator);
+      out += frame_control(sequence, bitmap, delay);
       pixels = true;
     }
     out += png_chunk(chunk.type, chunk.data);
@@ -44,24 +49,26 @@ std::string first_frame(const Bitmap& bitmap, uint32_t frames, uint32_t delay_de
   return out;
 }
 
-std::string further_frame(const Bitmap& bitmap, uint32_t delay_denominator, uint32_t* sequence) {
+std::string further_frame(const Bitmap& bitmap, const Delay& delay, uint32_t* sequence) {
   const std::string encoded = encode_png(bitmap);
-  std::string out = frame_control(sequence, bitmap, delay_denominator);
+  std::string out = frame_control(sequence, bitmap, delay);
   for (const PngChunk& chunk : png_chunks(encoded)) {
     if (chunk.type == "IDAT") out += png_chunk("fdAT", big_endian((*sequence)++) + std::string(chunk.data));
   }
   return out;
 }
 
-uint32_t delay_denominator_of(double frames_per_second) {
-  const double denominator = std::round(kDelayNumerator * frames_per_second);
-  if (!(denominator >= 1) || denominator > 65535)
-    throw fail(ErrorKind::output, "{} frames a second are not within 0.01 and 655", frames_per_second);
-  return static_cast<uint32_t>(denominator);
+Delay delay_of(double frames_per_second) {
+  if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))
+    throw fail(ErrorKind::output, "{} frames a second are no rate", frames_per_second);
+  const auto whole = [](double v) { return static_cast<uint32_t>(std::min(std::round(v), kMostOfDelay)); };
+  if (frames_per_second < 0.01) return {whole(1 / frames_per_second), 1};
+  if (100 * frames_per_second <= kMostOfDelay) return {100, whole(100 * frames_per_second)};
+  return {1, whole(frames_per_second)};
 }
 
 // All chunks of the animation into an open file.
-void write_frames(std::ostream& out, uint32_t frames, uint32_t delay_denominator,
+void write_frames(std::ostream& out, uint32_t frames, const Delay& delay,
                   const std::function<Bitmap(uint32_t)>& frame) {
   uint32_t sequence = 0, width = 0, height = 0, channels = 0;
   for (uint32_t i = 0; i < frames; ++i) {
@@ -71,8 +78,7 @@ void write_frames(std::ostream& out, uint32_t frames, uint32_t delay_denominator
       throw fail(ErrorKind::output, "frame {} has {}x{} pixels of {} channels but the first one {}x{} of {}",
                  i, bitmap.width, bitmap.height, bitmap.channels, width, height, channels);
     }
-    out << (i == 0 ? first_frame(bitmap, frames, delay_denominator, &sequence)
-                   : further_frame(bitmap, delay_denominator, &sequence));
+    out << (i == 0 ? first_frame(bitmap, frames, delay, &sequence) : further_frame(bitmap, delay, &sequence));
   }
   out << png_chunk("IEND", "");
 }
@@ -82,7 +88,7 @@ void write_frames(std::ostream& out, uint32_t frames, uint32_t delay_denominator
 void write_apng(const fs::path& path, uint32_t frames, double frames_per_second,
                 const std::function<Bitmap(uint32_t)>& frame) {
   if (frames == 0) throw fail(ErrorKind::output, "{}: an animation without frames", path.string());
-  const uint32_t delay_denominator = delay_denominator_of(frames_per_second);
+  const Delay delay = delay_of(frames_per_second);
   std::exception_ptr no_frame;
   const auto asked = [&](uint32_t i) {
     try {
@@ -95,7 +101,7 @@ void write_apng(const fs::path& path, uint32_t frames, double frames_per_second,
   try {
     write_atomically(path, [&](const fs::path& temporary) {
       std::ofstream out(temporary, std::ios::binary);
-      write_frames(out, frames, delay_denominator, asked);
+      write_frames(out, frames, delay, asked);
       out.flush();
       if (!out) throw std::runtime_error(std::strerror(errno));
     });

@@ -172,8 +172,22 @@ TEST_F(Apng, RatesAreKeptToAHundredth) {
       EXPECT_NEAR(double(number(c.data, 22, 2)) / number(c.data, 20, 2), rate, 1e-9);
     }
   }
-  for (const double rate : {0.0, -1.0, 0.001, 656.0, std::numeric_limits<double>::quiet_NaN()})
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double rate : {0.0, -1.0, infinite, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(write(dir_ / "b.png", frames, rate), Error) << rate;
+}
+
+TEST_F(Apng, ARateThatTheFormatCantHoldIsClamped) {
+  const auto frames = random_frames(2, 2, 3, 2);
+  const std::pair<double, double> rates[] = {{0.001, 0.001}, {656, 656},          {1e4, 1e4},
+                                             {1e6, 65535},   {1e-6, 1 / 65535.0}, {1e-300, 1 / 65535.0}};
+  for (const auto& [rate, shown] : rates) {
+    write(dir_ / "a.png", frames, rate);
+    for (const Chunk& c : parse(dir_ / "a.png")) {
+      if (c.type != "fcTL") continue;
+      EXPECT_NEAR(double(number(c.data, 22, 2)) / number(c.data, 20, 2) / shown, 1, 1e-9) << rate;
+    }
+  }
 }
 
 TEST_F(Apng, FramesAreAskedForOnceInOrder) {

@@ -66,6 +66,15 @@ std::string quote(const std::string& text) {
   return out + "'";
 }
 
+// Quoted where a shell would take it for more than a word.
+std::string word(const std::string& text) {
+  const auto plain = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !text.empty() && std::ranges::all_of(text, plain) ? text : quote(text);
+}
+
 }  // namespace
 
 uint16_t encode_srgb16(double value) {
@@ -103,7 +112,7 @@ std::string frame_file_name(uint32_t frame) { return fmt::format("{:04}.png", fr
 std::string cvvdp_command(const fs::path& test, const fs::path& reference, double frames_per_second,
                           const std::string& display) {
   return fmt::format("cvvdp --test {} --ref {} --fps {} --display {}", quote((test / "%04d.png").string()),
-                     quote((reference / "%04d.png").string()), frames_per_second, display);
+                     quote((reference / "%04d.png").string()), frames_per_second, word(display));
 }
 
 }  // namespace vsglbench

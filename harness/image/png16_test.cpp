@@ -134,4 +134,6 @@ TEST_F(Png16, TheCommandLineIsQuoted) {
   EXPECT_EQ(frame_file_name(12345), "12345.png");
   EXPECT_EQ(cvvdp_command("out/test", "it's/r", 24),
             "cvvdp --test 'out/test/%04d.png' --ref 'it'\\''s/r/%04d.png' --fps 24 --display standard_fhd");
+  EXPECT_TRUE(cvvdp_command("a", "b", 24, "x; rm $(y)").ends_with(" --display 'x; rm $(y)'"));
+  EXPECT_TRUE(cvvdp_command("a", "b", 24, "").ends_with(" --display ''"));
 }

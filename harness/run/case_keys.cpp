@@ -86,9 +86,11 @@ CaseKey choice(const Row& row, Enum FrameParameters::*field, Enum (*parse)(const
 CaseKey effects(const Row& row, EffectSet FrameParameters::*field) {
   CaseKey key = key_of(row);
   key.default_value = "";
-  const std::string one = fmt::format("({})", fmt::join(effect_names(), "|"));
+  std::vector<std::string> names = effect_names();
+  std::erase_if(names, [](const std::string& name) { return effect_named(name) >= Effect::moving_objects; });
+  const std::string one = fmt::format("({})", fmt::join(names, "|"));
   key.schema = {{"type", "string"}, {"pattern", fmt::format("^(all|{0}(,{0})*)?$", one)}};
-  key.values = "all, or names parted by commas (vsglbench list effects)";
+  key.values = "all, or names parted by commas (vsglbench list effects; not moving ones)";
   key.read = [=](const Json& value, FrameParameters* frame) {
     if (!value.is_string()) throw fail(ErrorKind::config, "{} must be a string", value.dump());
     frame->*field = parse_effects(value.get<std::string>());

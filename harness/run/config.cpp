@@ -59,6 +59,24 @@ std::string check_scene_name(const JsonDocument& doc, const std::string& at, con
   return identity_of(scene, file, name.view.value_or(""));
 }
 
+// Lists of effects: the schema could only say that they don't match a pattern of all of them.
+void check_effects(const JsonDocument& doc) {
+  for (const CaseKey& key : case_keys()) {
+    if (!key.schema.contains("pattern") || !doc.root().is_object() || !doc.root().contains(key.name))
+      continue;
+    const Json& value = doc.root().at(key.name);
+    for (const Json& each : value.is_array() ? value : Json::array({value})) {
+      if (!each.is_string()) continue;
+      try {
+        FrameParameters unused;
+        key.read(each, &unused);
+      } catch (const Error& e) {
+        throw doc.error("/" + key.name, e.what());
+      }
+    }
+  }
+}
+
 void check_scenes(const JsonDocument& doc, const std::vector<std::string>& scenes) {
   std::map<std::string, std::string> seen;  // name, by what it stands for
   for (size_t i = 0; i < scenes.size(); ++i) {
@@ -205,6 +223,7 @@ Config load_config(const fs::path& path, const Overrides& overrides) {
     throw doc.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`",
                                            path.stem().string()));
   }
+  check_effects(doc);
   check_schema(doc, config_schema());
   Json root = doc.root();
   apply(overrides, &root);

@@ -35,6 +35,34 @@ TEST_F(ConfigTest, UnknownNamesAreNamed) {
   EXPECT_TRUE(contains(problem(), "no visibility 'exat'; did you mean 'exact'?"));
 }
 
+TEST_F(ConfigTest, EffectsAreNamedInALine) {
+  const Json good = config_;
+  const auto problem_with = [&](const Json& keys) {
+    config_ = good;
+    config_.update(keys);
+    const std::string text = problem();
+    EXPECT_LT(text.size() - text.find("bad.json"), 150u) << text;
+    return text;
+  };
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", "oclusion"}}),
+                       "'skip_effects' no effect 'oclusion'; did you mean 'occlusion'?"));
+  EXPECT_TRUE(contains(problem_with({{"force_effects", {"", "occlusion,normal_map"}}}),
+                       "did you mean 'normal_maps'?"));
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", "caustics"}}),
+                       "no effect 'caustics'; see vsglbench list effects"));
+  EXPECT_TRUE(
+      contains(problem_with({{"force_effects", "all,all"}}), "'all' stands for every effect; give it alone"));
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", "moving_light"}}),
+                       "moving_light is the scene's: it can be neither forced nor skipped"));
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", Json::array()}}), "has 0 items but needs 1"));
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", 3}}), "must be string"));
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", "occlusion"}, {"force_effects", {"", "all"}}}),
+                       "both forces and skips occlusion; name it in one of the two"));
+  config_ = good;
+  config_["methods"][0]["skip_effects"] = "caustics";
+  EXPECT_TRUE(contains(problem(), "no effect 'caustics'"));
+}
+
 TEST_F(ConfigTest, WrongTypesAndRanges) {
   const auto after = [&](const char* pointer, const Json& value) {
     const Json good = config_;

@@ -10,6 +10,12 @@
 
 namespace vsglbench {
 
+// "0003.exr".
+std::string motion_frame_file(uint32_t frame);
+// Removes the EXRs and PNGs of frames `first` on from a folder, which need not be there. Throws
+// Error(output).
+void remove_frames_from(const std::filesystem::path& folder, uint64_t first);
+
 // Frame "0003.exr" of such a folder, with its coverage and the animation's frames a second. Throws
 // Error(output).
 struct MotionFrame {
@@ -30,7 +36,8 @@ class MotionImages {
 
   // Draws, from the frames on the disk, the animated picture of the crop that flickers most beside the
   // reference ("flicker") and the row through its middle over time ("profile"); their paths, and the frames'
-  // folder ("frames") and their references' ("reference_frames"). Throws Error(output), Error(case_failed).
+  // folder ("frames") and their references' ("reference_frames"). What an earlier run left there of frames
+  // that were not measured now is removed. Throws Error(output), Error(case_failed).
   std::map<std::string, std::string> draw(const Case& c, const DerivativeFlickerMeter& meter,
                                           float exposure) const;
 
@@ -39,8 +46,8 @@ class MotionImages {
   double rate_;
 };
 
-// Where the frames of a case lie, relative to the report's folder; of its references, those of every case with
-// the same size and occlusion.
+// Where the frames of a case lie, relative to the report's folder; of its references, those of every case
+// with the same size and occlusion.
 std::string frames_folder(const Case& c);
 std::string reference_frames_folder(const Case& c);
 

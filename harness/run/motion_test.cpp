@@ -1,4 +1,5 @@
 // Flicker of scenes in motion, from the config to the report.
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "image/exr.h"
 #include "image/flicker.h"
 #include "image/png.h"
 #include "run/frame_export.h"
@@ -18,7 +20,24 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-using MotionTest = MotionFixture;
+class MotionTest : public MotionFixture {
+ protected:
+  // A run anew that is killed when it begins an action.
+  void kill_at(const std::string& action) const {
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      RunOptions o = options();
+      o.force = true;
+      o.sabotage = [parent = ::getpid(), action](const Activity& a) {
+        if (a.action == action) ::kill(parent, SIGKILL);
+      };
+      ::_exit(run_config(o).exit_code);
+    }
+    int status = 0;
+    ::waitpid(pid, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status)) << action;
+  }
+};
 
 TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
   use(ring_scene(5));
@@ -33,7 +52,8 @@ TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
   ASSERT_EQ(t.derivative.series.size(), 4u);
   EXPECT_GT(t.derivative.value, 0);
   EXPECT_GE(t.derivative.p99, t.derivative.value);
-  EXPECT_NEAR(t.derivative.value, std::accumulate(t.derivative.series.begin(), t.derivative.series.end(), 0.0) / 4,
+  EXPECT_NEAR(t.derivative.value,
+              std::accumulate(t.derivative.series.begin(), t.derivative.series.end(), 0.0) / 4,
               0.05 * t.derivative.value);  // but for the number of pixels in each
   EXPECT_EQ(t.derivative.series.at(t.derivative.worst_frame - 1),
             *std::ranges::max_element(t.derivative.series));
@@ -97,6 +117,66 @@ TEST_F(MotionTest, TheFloorIsWhatAPerfectImageHas) {
   EXPECT_GT(here.noise_floor, 0);
   EXPECT_NEAR(perfect.finish()->value / std::sqrt(2.0), here.noise_floor, 0.15 * here.noise_floor);
   EXPECT_NEAR(here.unlit, black.finish()->value, 1e-6 * here.unlit);
+}
+
+// What an earlier export or run left, and nothing else, goes.
+TEST_F(MotionTest, NoFrameOfAnEarlierExportStays) {
+  use(ring_scene(4));
+  const fs::path to = folder_ / "exported";
+  export_frames(out_, run().at(0), 2, to, "standard_4k");
+  write_text(to / "test" / "notes.txt", "mine");
+  write_text(to / "test" / "12.exr", "mine");
+  config_["motion"]["frames"] = 2;
+  const CaseResult c = run().at(0);
+  for (const char* folder : {"frames", "reference_frames"}) {
+    EXPECT_TRUE(fs::exists(out_ / c.images.at(folder) / "0001.exr")) << folder;
+    EXPECT_FALSE(fs::exists(out_ / c.images.at(folder) / "0002.exr")) << folder;
+  }
+  EXPECT_EQ(export_frames(out_, c, 2, to, "standard_4k").frames, 2u);
+  for (const char* side : {"test", "reference"}) {
+    for (const char* file : {"0002.png", "0003.exr"})
+      EXPECT_FALSE(fs::exists(to / side / file)) << side << file;
+    EXPECT_TRUE(fs::exists(to / side / "0001.png"));
+  }
+  EXPECT_EQ(read_text(to / "test" / "notes.txt") + read_text(to / "test" / "12.exr"), "minemine");
+}
+
+TEST_F(MotionTest, WhatIsNoFrameIsNotExported) {
+  use(ring_scene(3));
+  const CaseResult c = run().at(0);
+  const fs::path from = out_ / c.images.at("frames"), to = folder_ / "exported";
+  const auto problem = [&](const CaseResult& asked) {
+    try {
+      export_frames(out_, asked, 2, to, "standard_4k");
+    } catch (const Error& e) {
+      EXPECT_EQ(e.exit_code(), 2);
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CaseResult none = c;
+  none.temporal->frames = 0;
+  EXPECT_TRUE(contains(problem(none), "has 0 frames"));
+  fs::remove(from / "0001.exr");
+  ASSERT_EQ(::mkfifo((from / "0001.exr").c_str(), 0600), 0);
+  EXPECT_TRUE(contains(problem(c), "0001.exr: is no plain file"));
+  fs::remove(from / "0001.exr");
+  ExrLayers other{8, 4, {{"", Image(8, 4)}}, {}, {{"frames_per_second", "4"}}};
+  other.scalars["A"] = std::vector<float>(32, 1);
+  write_exr(from / "0001.exr", other);
+  EXPECT_TRUE(contains(problem(c), "0001.exr: has 8x4 pixels but the first frame "));
+  fs::remove_all(to);
+  write_text(to, "a file");
+  EXPECT_TRUE(contains(problem(c), "exported/test: can't be made"));
+}
+
+TEST_F(MotionTest, ARateThatNoPictureHoldsCostsNoCase) {
+  Json scene = ring_scene(3);
+  scene["animation"]["rate"] = 5e4;
+  use(scene);
+  const CaseResult c = run().at(0);
+  EXPECT_EQ(c.status, Status::ok);
+  EXPECT_TRUE(fs::exists(out_ / c.images.at("flicker")));
 }
 
 // The frames on the disk are those that were measured; a flicker that is planted in one of them is found
@@ -183,7 +263,8 @@ TEST_F(MotionTest, OfAStillSceneThereIsAWarning) {
   config_["methods"] = {{{"method", "mfis"}}};
   ::testing::internal::CaptureStderr();
   EXPECT_FALSE(run().at(0).temporal);
-  EXPECT_TRUE(contains(::testing::internal::GetCapturedStderr(), "cornell: stands still: no flicker is measured"));
+  EXPECT_TRUE(
+      contains(::testing::internal::GetCapturedStderr(), "cornell: stands still: no flicker is measured"));
 }
 
 TEST_F(MotionTest, WithoutOcclusionTheReferencesAreOthers) {
@@ -199,26 +280,10 @@ TEST_F(MotionTest, WithoutOcclusionTheReferencesAreOthers) {
 TEST_F(MotionTest, AKilledRunGoesOn) {
   use(ring_scene(3));
   const Json whole = part_to_json(run().at(0))["temporal"];
-  const auto killed_at = [&](const std::string& action) {
-    const pid_t pid = ::fork();
-    if (pid == 0) {
-      RunOptions o = options();
-      o.force = true;
-      o.sabotage = [parent = ::getpid(), action](const Activity& a) {
-        if (a.action == action) ::kill(parent, SIGKILL);
-      };
-      ::_exit(run_config(o).exit_code);
-    }
-    int status = 0;
-    ::waitpid(pid, &status, 0);
-    EXPECT_TRUE(WIFSIGNALED(status)) << action;
-    std::set<std::string> actions;
-    return status;
-  };
-  killed_at("frame 2");
+  kill_at("frame 2");
   EXPECT_TRUE(contains(read_text(out_ / "report.journal"), "temporal"));
   EXPECT_EQ(part_to_json(run().at(0))["temporal"], whole);
-  killed_at("frame 1 in motion, seed 0");
+  kill_at("frame 1 in motion, seed 0");
   EXPECT_FALSE(read_text(out_ / "report.journal").find("temporal") != std::string::npos);
   EXPECT_EQ(part_to_json(run().at(0))["temporal"], whole);
 }

@@ -183,6 +183,7 @@ class Entry {
     }
     if (keys_.usable() && !vpls) read_own_choices(c.method_parameters, &c.frame);
     check_variance(c.frame.shading);
+    check_effects(c.frame);
     c.parameters = resolved(c, vpls);
     n.settings = settings(c, index, vpls);
     return n;
@@ -205,6 +206,13 @@ class Entry {
         at_,
         "makes a case of shading vsgl14 with variance disk, which vsgl14 has no use for: its r² = 2σ² "
         "takes the 3d variance; sweep the two in entries of their own");
+  }
+
+  void check_effects(const FrameParameters& frame) const {
+    const EffectSet both = frame.force_effects - (frame.force_effects - frame.skip_effects);
+    if (both == EffectSet::none()) return;
+    throw doc_.error(at_, fmt::format("makes a case that both forces and skips {}; name it in one of the two",
+                                      both == EffectSet::all() ? "all effects" : to_text(both)));
   }
 
   Json resolved(const Case& c, bool vpls) const {

@@ -117,7 +117,11 @@ const char* description(Effect effect) { return kRows[static_cast<size_t>(effect
 Effect effect_named(const std::string& name) {
   const auto& names = effect_names();
   const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw fail(ErrorKind::config, "no effect '{}'{}", name, suggestion(name, names));
+  if (found == names.end()) {
+    const std::string near = suggestion(name, names);
+    throw fail(ErrorKind::config, "no effect '{}'{}", name,
+               near.starts_with("; did you mean") ? near : "; see vsglbench list effects");
+  }
   return static_cast<Effect>(found - names.begin());
 }
 
@@ -126,7 +130,12 @@ EffectSet parse_effects(const std::string& text) {
   EffectSet set = EffectSet::none();
   for (size_t at = 0; !text.empty() && at <= text.size();) {
     const size_t comma = std::min(text.find(',', at), text.size());
-    set.add(effect_named(text.substr(at, comma - at)));
+    const std::string one = text.substr(at, comma - at);
+    if (one == "all") throw fail(ErrorKind::config, "'all' stands for every effect; give it alone");
+    const Effect effect = effect_named(one);
+    if (effect >= Effect::moving_objects)  // no frame can leave it out or add it
+      throw fail(ErrorKind::config, "{} is the scene's: it can be neither forced nor skipped", one);
+    set.add(effect);
     at = comma + 1;
   }
   return set;
@@ -145,10 +154,11 @@ namespace {
 // What moves in any frame, by the poses themselves.
 std::vector<EffectDecision> decide_motion(const Scene& scene) {
   const Moved& moves = scene.animation.moves;
+  const std::string nothing =
+      frame_count(scene) == 1 ? "the scene has one frame"
+                              : fmt::format("nothing of this kind moves in {} frames", frame_count(scene));
   const auto decision = [&](Effect effect, bool moves_at_all, const std::string& what) {
-    return EffectDecision{
-        effect, moves_at_all,
-        moves_at_all ? what : fmt::format("nothing of this kind moves in {} frames", frame_count(scene))};
+    return EffectDecision{effect, moves_at_all, moves_at_all ? what : nothing};
   };
   const std::string first = moves.objects.empty() ? "" : scene.animation.objects[moves.objects.front()].name;
   return {decision(Effect::moving_objects, !moves.objects.empty(), fmt::format("object '{}' moves", first)),

@@ -75,6 +75,13 @@ TEST_F(SceneMotion, ErrorsNameTheLine) {
   EXPECT_TRUE(contains(error_of("\"fov\": 90", "\"fov\": 180"), "scene.json:14:"));
 }
 
+TEST_F(SceneMotion, AQuaternionMayHaveAnyLength) {
+  for (const char* length : {"1e-200", "1e300", "1e-320"}) {
+    const std::string text = fmt::format("\"rotation\": [{0}, 0, 0, {0}]", length);
+    EXPECT_EQ(error_of("\"rotation\": [0, 0, 0, 1]", text), "") << length;
+  }
+}
+
 TEST_F(SceneMotion, KeysNeedFrames) {
   EXPECT_TRUE(contains(error_of("\"animation\": {\"frames\": 4, \"rate\": 4},", ""),
                        "scene.json:8: 'objects/0/keys' is for a scene with 'animation'"));

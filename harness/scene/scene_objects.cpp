@@ -1,5 +1,6 @@
 #include "scene/scene_objects.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -19,8 +20,10 @@ glm::dvec3 vector(const Json& v) { return {v[0].get<double>(), v[1].get<double>(
 glm::dquat quaternion(const JsonDocument& document, const std::string& at) {
   const Json& v = value(document, at);
   const glm::dquat q(v[3].get<double>(), v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
-  if (!(glm::length(q) > 0 && std::isfinite(glm::length(q)))) throw document.error(at, "has no length");
-  return q;
+  const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
+  if (!(largest > 0 && std::isfinite(largest))) throw document.error(at, "has no length");
+  const bool squares_keep_digits = largest > 1e-100 && largest < 1e100;
+  return squares_keep_digits ? q : glm::dquat(q.w / largest, q.x / largest, q.y / largest, q.z / largest);
 }
 
 MovingNode read_node(const JsonDocument& document, const std::string& at) {
