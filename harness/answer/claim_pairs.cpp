@@ -55,8 +55,8 @@ std::optional<double> seed_value(const SeedResult& s, const std::string& metric)
   throw std::logic_error("no metric " + metric);
 }
 
-// By seed. Of the static flicker, which is one number for all seeds, how far each seed's image is from those of
-// the others.
+// By seed. Of the static flicker, which is one number for all seeds, how far each seed's image is from those
+// of the others.
 std::vector<double> temporal_values(const Temporal& t, const std::string& metric) {
   if (metric == "temporal.derivative") return t.derivative.values;
   if (metric == "temporal.static") return t.still ? t.still->series : std::vector<double>{};

@@ -11,9 +11,10 @@ namespace vsglbench {
 // A case of one side.
 struct ClaimCase {
   const CaseResult* result;
-  std::map<uint64_t, double> logs;  // of the metric, by seed; of temporal.static, of a seed's distances to others
-  std::optional<Estimate> ms;       // of the time that counts
-  bool of_pairs = false;            // see mean_of_seeds
+  std::map<uint64_t, double>
+      logs;                    // of the metric, by seed; of temporal.static, of a seed's distances to others
+  std::optional<Estimate> ms;  // of the time that counts
+  bool of_pairs = false;       // see mean_of_seeds
 };
 
 struct Sides {
@@ -30,8 +31,8 @@ struct PairRatio {
 bool is_time(const std::string& metric);      // "time:generate"
 bool is_temporal(const std::string& metric);  // "temporal.static"
 
-// Their mean and Student's interval; nothing of fewer than two. `of_pairs`: of S distances to the others, each
-// pair's is in two, and the interval is the jackknife's; two are the same, so that it takes three.
+// Their mean and Student's interval; nothing of fewer than two. `of_pairs`: of S distances to the others,
+// each pair's is in two, and the interval is the jackknife's; two are the same, so that it takes three.
 std::optional<Estimate> mean_of_seeds(const std::map<uint64_t, double>& logs, bool of_pairs);
 
 Sides sides_of(const Report& report, const PaperClaim& claim, const std::string& scene,

@@ -20,7 +20,8 @@ DeferredTargets& Stage::targets(Half half, uint32_t width, uint32_t height, cons
                           .diffuse = (lobes & DIFFUSE_LOBE) != 0,
                           .f0 = (lobes & SPECULAR_LOBE) != 0};
   auto& slot = targets_[{half, width, height, channels}];
-  const VkImageUsageFlags copied_into = scene.animation.moves.any() ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_DST_BIT} : 0;
+  const VkImageUsageFlags copied_into =
+      scene.animation.moves.any() ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_DST_BIT} : 0;
   if (!slot)
     slot = std::make_unique<DeferredTargets>(device, half_name(half), width, height, channels, copied_into);
   return *slot;

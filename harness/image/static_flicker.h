@@ -25,12 +25,12 @@ struct StaticFlicker {
   double mean_reference = 0;
 };
 
-// mean |x_s − x_s'| over all pairs of seeds, x_s the same frozen frame with the random numbers of seed s, over
-// mean(r) of the frame's mask. It is what the derivative's flicker is of an animation in which nothing moves
-// and every frame takes another seed; of Gaussian noise 2/√π = 1.128 of its standard deviation. It has no bias
-// however few the seeds, which a standard deviation has where spikes are rare: of 4 seeds it sees two thirds.
-// Nothing where the reference is black. Throws Error(case_failed) for fewer than two images, as measure_errors
-// does for what can't be compared, and where the mask keeps nothing.
+// mean |x_s − x_s'| over all pairs of seeds, x_s the same frozen frame with the random numbers of seed s,
+// over mean(r) of the frame's mask. It is what the derivative's flicker is of an animation in which nothing
+// moves and every frame takes another seed; of Gaussian noise 2/√π = 1.128 of its standard deviation. It has
+// no bias however few the seeds, which a standard deviation has where spikes are rare: of 4 seeds it sees two
+// thirds. Nothing where the reference is black. Throws Error(case_failed) for fewer than two images, as
+// measure_errors does for what can't be compared, and where the mask keeps nothing.
 std::optional<StaticFlicker> static_flicker(std::span<const Image> seeds, const Image& r,
                                             const Mask& mask = {});
 

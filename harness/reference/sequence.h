@@ -32,7 +32,8 @@ class ReferenceSequence {
   std::string hash() const { return reference_hash(scene_, parameters_, teachers_); }
 
   // The reference of the present pose: from the cache, or by tracer(), which is called only then and must be
-  // of `scene` in this pose. The first that is not cached builds other tracers for a moment, to be taught. Errors as compute_reference().
+  // of `scene` in this pose. The first that is not cached builds other tracers for a moment, to be taught.
+  // Errors as compute_reference().
   ReferenceResult present(const std::function<const Tracer&()>& tracer, bool* from_cache = nullptr);
 
  private:

@@ -192,10 +192,10 @@ struct SeedResult {
 };
 
 // How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
-// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds, and
-// worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image of
-// seed i is from those of the others, and worst_frame the seed of its largest; its interval is the jackknife's
-// over seeds, absent for two.
+// seed). `derivative` (image/flicker.h): series[i] is of frame i + 1 against frame i, the mean over seeds,
+// and worst_frame the frame of its largest. `static` (image/static_flicker.h): series[i] is how far the image
+// of seed i is from those of the others, and worst_frame the seed of its largest; its interval is the
+// jackknife's over seeds, absent for two.
 struct FlickerSeries {
   double value = 0;
   double p99 = 0;  // 99th percentile over pixels; of `derivative` the mean over seeds
@@ -221,9 +221,9 @@ struct Temporal {
   FlickerSeries derivative;
   std::optional<FlickerSeries> still;  // "static" in the file; absent for a single seed
   std::optional<DetailResult> detail;  // absent where the references have none
-  // What `derivative` is of two images that no method makes, by the same references: of a perfect one, for the
-  // references' own noise, and of a black one. A value near the first is noise, and one near the second comes
-  // of light that is missing.
+  // What `derivative` is of two images that no method makes, by the same references: of a perfect one, for
+  // the references' own noise, and of a black one. A value near the first is noise, and one near the second
+  // comes of light that is missing.
   double noise_floor = 0, unlit = 0;
   uint64_t frames = 0, seeds = 0;
   std::vector<std::string> references;  // their hashes, one a frame

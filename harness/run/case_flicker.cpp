@@ -95,7 +95,8 @@ std::optional<DetailResult> CaseFlicker::detail() const {
     gains.push_back(found->gain);
   }
   const MeanEstimate estimate = mean_ci95(values);
-  return DetailResult{estimate.mean, mean_ci95(gains).mean, interval_of(estimate), detail_formula().id, values};
+  return DetailResult{estimate.mean, mean_ci95(gains).mean, interval_of(estimate), detail_formula().id,
+                      values};
 }
 
 }  // namespace vsglbench

@@ -21,16 +21,20 @@ class MotionFixture : public RunFixture {
                   {"geometry", {{"builder", "cornell"}}},
                   {"animation", {{"frames", frames}, {"rate", 4}}},
                   {"default_view", "front"}};
-    scene["objects"] = Json::array({{{"name", "ring"},
-                                     {"torus", {{"major", 0.3}, {"minor", 0.1}}},
-                                     {"interpolation", "linear"},
-                                     {"keys", Json::array({{{"time", 0}, {"translation", {-0.5, 1.0, 0.2}}},
-                                                           {{"time", end}, {"translation", {to, 1.0, 0.2}}}})}}});
+    scene["objects"] =
+        Json::array({{{"name", "ring"},
+                      {"torus", {{"major", 0.3}, {"minor", 0.1}}},
+                      {"interpolation", "linear"},
+                      {"keys", Json::array({{{"time", 0}, {"translation", {-0.5, 1.0, 0.2}}},
+                                            {{"time", end}, {"translation", {to, 1.0, 0.2}}}})}}});
     scene["views"]["front"] = {
         {"camera", {{"eye", {0.02, 1.01, 3}}, {"direction", {0, 0, -1}}, {"vfov", 52}}},
         {"light",
          {{"spot",
-           {{"position", {0.35, 1.9, 0.45}}, {"target", {-0.55, 0.3, -0.6}}, {"fov", 75}, {"intensity", 10}}}}}};
+           {{"position", {0.35, 1.9, 0.45}},
+            {"target", {-0.55, 0.3, -0.6}},
+            {"fov", 75},
+            {"intensity", 10}}}}}};
     return scene;
   }
   void use(const Json& scene) { config_["scenes"] = {write_scene("ring", scene, "")}; }
