@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include "base/child.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "cli/command.h"
 #include "method/registry.h"
 #include "report/ledger.h"
 #include "run/effect_prices.h"
+#include "run/memory.h"
 #include "run/runner.h"
 #include "run/scene_effects.h"
 #include "run/visibility_tracer.h"
@@ -19,6 +22,7 @@ struct EffectsOptions {
   FrameParameters frame{.width = 320, .height = 180, .rsm = 128, .importance_lights = 256};
   std::string visibility = "none";
   uint32_t rounds = 8;
+  double time_limit = 300;  // seconds of a frame
   bool price = false, json = false;
 };
 
@@ -35,14 +39,18 @@ Json json_of(const std::vector<EffectReport>& ledger) {
 }
 
 EffectSaving price(const EffectsOptions& options, const Scene& scene, SceneEffects& effects,
-                   std::vector<EffectReport>* ledger) {
+                   const std::function<void(const std::string&)>& now, std::vector<EffectReport>* ledger) {
   Device device({.select = options.device});
+  Case priced;
+  priced.method = options.method;
+  priced.frame = options.frame;
+  require_memory(device.info(), priced);
   KernelLibrary kernels(device);
   Stage stage(device, kernels, scene);
   const MethodInfo& method = load_method(options.method, device.info());
   PricedFrame frame{method, resolve_parameters(method, Json::object()), options.frame, {}};
   frame.parameters.effects = effects.of(frame.parameters);
-  return price_effects(stage, frame, {.rounds = options.rounds}, ledger);
+  return price_effects(stage, frame, {.rounds = options.rounds, .now = now}, ledger);
 }
 
 // A report's folder or file, not a scene's.
@@ -63,26 +71,54 @@ void show_report(const EffectsOptions& options) {
   fmt::print("{}\n", scenes.dump(2));
 }
 
-void show(EffectsOptions options) {
-  if (is_report(options.scene)) return show_report(options);
-  options.frame.visibility = parse_visibility(options.visibility);
+std::string text_of(const EffectsOptions& options, const std::function<void(const std::string&)>& now) {
   const Scene scene = load_scene(options.scene, {data_root() / "scenes", assets_directory(options.assets)});
   SceneEffects effects(scene);
   auto rows = ledger(effects.decisions(options.frame.width, options.frame.height));
   EffectSaving saving;
-  if (options.price) saving = price(options, scene, effects, &rows);
-  if (options.json) return fmt::print("{}\n", json_of(rows).dump(2));
-  fmt::print("{}", ledger_text(rows));
-  if (!options.price) return;
+  if (options.price) saving = price(options, scene, effects, now, &rows);
+  if (options.json) return json_of(rows).dump(2) + "\n";
+  std::string out = ledger_text(rows);
+  if (!options.price) return out;
   const auto mib = [](int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
-  fmt::print(
-      "{} of {}: {:.1f} ms and {:.1f} MiB as the scene calls for, {:.1f} ms and {:.1f} MiB with all effects: "
-      "{:.2f} times; without gbuffer and rsm {:.2f} times\n"
-      "ms: what an effect adds to a frame, whether it is needed or skipped; MiB: to its images and buffers\n",
-      options.method, scene.name, saving.derived_span_ms.median, mib(saving.derived_bytes),
-      saving.forced_span_ms.median, mib(saving.forced_bytes),
-      saving.forced_span_ms.median / saving.derived_span_ms.median,
-      saving.forced_ms.median / saving.derived_ms.median);
+  return out +
+         fmt::format(
+             "{} of {}: {:.1f} ms and {:.1f} MiB as the scene calls for, {:.1f} ms and {:.1f} MiB with all "
+             "effects: {:.2f} times; without gbuffer and rsm {:.2f} times\n"
+             "ms: what an effect adds to a frame, whether it is needed or skipped; MiB: to its images and "
+             "buffers\n",
+             options.method, printable(scene.name), saving.derived_span_ms.median, mib(saving.derived_bytes),
+             saving.forced_span_ms.median, mib(saving.forced_bytes),
+             saving.forced_span_ms.median / saving.derived_span_ms.median,
+             saving.forced_ms.median / saving.derived_ms.median);
+}
+
+// In a process of its own, as a method may crash or hang.
+std::string priced_text_of(const EffectsOptions& options) {
+  Child child([&](const ToParent& parent) {
+    try {
+      parent.send({{"text", text_of(options, [&](const std::string& action) {
+                      parent.send({{"now", action}});
+                    })}});
+    } catch (const Error& e) {
+      parent.send({{"error", e.what()}, {"kind", static_cast<int>(e.kind())}});
+    }
+  });
+  std::string action = "starting";
+  while (const auto message = child.receive(options.time_limit)) {
+    if (message->contains("text")) return message->at("text");
+    if (message->contains("error"))
+      throw Error(static_cast<ErrorKind>(message->at("kind").get<int>()), message->at("error"));
+    action = message->at("now");
+  }
+  throw fail(child.timed_out() ? ErrorKind::timeout : ErrorKind::crashed, "{} while {}: {}", options.method,
+             action, child.how_it_ended());
+}
+
+void show(EffectsOptions options) {
+  if (is_report(options.scene)) return show_report(options);
+  options.frame.visibility = parse_visibility(options.visibility);
+  fmt::print("{}", options.price ? priced_text_of(options) : text_of(options, {}));
 }
 
 }  // namespace
@@ -101,7 +137,9 @@ void add_effects_command(CLI::App& app) {
       ->required();
   command->add_flag("--price", options->price, "render frames with and without each effect, and time them");
   command->add_option("--method", options->method, "of the priced frames")->capture_default_str();
-  command->add_option("--lights", options->frame.lights, "N of the priced frames")->capture_default_str();
+  command->add_option("--lights", options->frame.lights, "N of the priced frames")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
   command->add_option("--importance-lights", options->frame.importance_lights, "of the priced frames")
       ->check(CLI::Range(1, 1 << 24))
       ->capture_default_str();
@@ -119,6 +157,9 @@ void add_effects_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--rounds", options->rounds, "frames of each kind")
       ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--time-limit", options->time_limit, "seconds after which a method that gives no sign is stopped")
+      ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command->add_flag("--json", options->json, "as JSON");
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");

@@ -40,6 +40,37 @@ class PluginTest : public CliTest {
   const fs::path bad_ = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
 };
 
+TEST_F(PluginTest, PricingEffectsByABadOneEndsInALine) {
+  const auto price = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"--plugin-path", bad_.string(), "effects", "cornell", "--price",
+                                    "--rounds", "1", "--width", "16", "--height", "16", "--rsm", "16"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  expect_refused(price({"--method", "crashes"}), 1, "crashes while opening with the effects");
+  expect_refused(price({"--method", "hangs", "--time-limit", "2"}), 1, "without a sign of life");
+  expect_refused(price({"--lights", "0"}), 2, "--lights");
+  expect_refused(price({"--method", "no-such"}), 2, "no-such");
+  EXPECT_EQ(price({}).code, 0);
+}
+
+// An object's name is a file's, and the terminal is not its to steer.
+TEST_F(PluginTest, TheLedgerShowsNoNameRaw) {
+  const fs::path scene = folder_ / "named" / "scene.json";
+  fs::create_directories(scene.parent_path());
+  write_text(scene, R"({"name": "named", "description": "a ring whose name is an escape sequence",
+    "geometry": {"builder": "cornell"}, "animation": {"frames": 2, "rate": 1},
+    "objects": [{"name": "\u001b[31mred\u0007", "torus": {"major": 0.2, "minor": 0.05}, "interpolation": "linear",
+      "keys": [{"time": 0, "translation": [0, 1, 0]}, {"time": 1, "translation": [0.1, 1, 0]}]}],
+    "views": {"A": {"camera": {"eye": [0, 1, 3], "direction": [0, 0, -1], "vfov": 50},
+      "light": {"spot": {"position": [0.3, 1.9, 0.4], "target": [0, 0, 0], "fov": 70, "intensity": 10}}}},
+    "default_view": "A"})");
+  const Finished shown = run({"effects", scene.string()});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_TRUE(contains(shown.out, "[31mred"));
+  EXPECT_EQ(shown.out.find_first_of("\x1b\x07"), std::string::npos) << shown.out;
+}
+
 TEST_F(PluginTest, ABadOneCostsItsOwnCaseAndNothingElse) {
   use_methods({"vpl", "wrong-abi", "crashes", "crashes-on-load", "hangs", "loses-device", "needs-feature",
                "returns-nan", "mfis"});

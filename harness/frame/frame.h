@@ -65,6 +65,7 @@ class Frame {
   // What a frame works with beside the scene: deferred targets, PDFs, lights, the method's scratch memory,
   // bits of visibility and the image; shadow maps are not counted.
   size_t memory_bytes() const;
+  const EffectSet& effects() const { return parts_.parameters.effects; }  // what it simulates
   const DeferredTargets& gbuffer() const { return parts_.halves.targets(Half::gbuffer); }
   const DeferredTargets& rsm() const { return parts_.halves.targets(Half::rsm); }
   const gpu::Emitter& camera() const { return parts_.halves.emitter(Half::gbuffer); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "report/table_layout.h"
 
 namespace vsglbench {
@@ -31,7 +32,7 @@ std::string rows(const std::vector<EffectReport>& effects, const char* indent, b
     if (!reasons && !is_priced(e)) continue;
     out += fmt::format("{}{:<{}}  {}", indent, e.name, name_width, e.needed ? "needed " : "skipped");
     if (price_width > 0) out += fmt::format("  {:<{}}", price_of(e), reasons ? price_width : 0);
-    if (reasons) out += "  " + e.reason;
+    if (reasons) out += "  " + printable(e.reason);
     out += '\n';
   }
   return out;
@@ -41,7 +42,7 @@ std::string total_of(const EffectPricing& p) {
   return fmt::format(
       "{}: {:.1f} ms and {:.1f} MiB; with all effects {:.1f} ms and {:.1f} MiB, {:.2f} [{:.2f} … {:.2f}] "
       "times as long; {} rounds, {:.1f} s\n",
-      p.case_id, p.span_ms, mib(p.bytes), p.span_ms_all, mib(p.bytes_all), p.ratio.value, p.ratio.ci95.lo,
+      printable(p.case_id), p.span_ms, mib(p.bytes), p.span_ms_all, mib(p.bytes_all), p.ratio.value, p.ratio.ci95.lo,
       p.ratio.ci95.hi, p.rounds, p.seconds);
 }
 
@@ -53,7 +54,7 @@ std::string short_ledger(const SceneReport& scene) {
   std::vector<std::string> needed;
   for (const EffectReport& e : scene.effects)
     if (e.needed) needed.push_back(e.name);
-  std::string out = fmt::format("{} calls for {} of {} effects: {}\n", scene.name, needed.size(),
+  std::string out = fmt::format("{} calls for {} of {} effects: {}\n", printable(scene.name), needed.size(),
                                 scene.effects.size(), fmt::join(needed, ", "));
   if (scene.effects_priced) out += "  " + total_of(*scene.effects_priced) + rows(scene.effects, "  ", false);
   return out;
@@ -64,7 +65,7 @@ std::string ledgers_of(const Report& report) {
   for (const SceneReport& scene : report.scenes) {
     if (scene.effects.empty()) continue;
     if (!out.empty()) out += '\n';
-    out += fmt::format("{}\n{}", scene.name, ledger_text(scene.effects));
+    out += fmt::format("{}\n{}", printable(scene.name), ledger_text(scene.effects));
     if (scene.effects_priced) out += total_of(*scene.effects_priced);
   }
   if (out.empty()) throw fail(ErrorKind::usage, "this report holds no ledger of effects; it is of old");

@@ -7,6 +7,7 @@
 
 #include "run/effect_prices.h"
 #include "run/random_scene.h"
+#include "run/visibility_tracer.h"
 #include "scene/animation.h"
 
 using namespace vsglbench;
@@ -316,6 +317,41 @@ TEST(EffectsAdversary, AnAlphaMaskWhoseOnlyHoleIsOneTexel) {
   maker.quad(maker.material(m), {-0.8, 0.6, 0.3}, {1.6, 0, 0}, {0, 0, -1.6});
   Laboratory lab(maker.finish());
   expect_called_for(lab, Effect::alpha_masks);
+}
+
+// Of two cases of a scene, one leaves the masks out: each one's shadow rays start from the surfaces that it sees.
+TEST(EffectsAdversary, RaysStartFromWhatTheirFrameSees) {
+  uint32_t white = 0;
+  SceneMaker maker = open_room(&white);
+  std::vector<uint8_t> texels(4 * 8 * 8, 255);
+  for (size_t i = 0; i < texels.size() / 2; i += 4) texels[i + 3] = 0;
+  Material m;
+  m.name = "masked";
+  m.alpha_cutoff = 0.5f;
+  m.base_color_texture = maker.texture(8, 8, true, texels);
+  maker.quad(maker.material(m), {-0.8, 0.6, 0.3}, {1.6, 0, 0}, {0, 0, -1.6});
+  Laboratory lab(maker.finish());
+  WallTime wall;
+  VisibilityTracer shared(lab.tracer, &wall);
+  std::vector<std::vector<uint32_t>> bits;
+  const EffectSet masks = EffectSet::none().add(Effect::alpha_masks);
+  for (const EffectSet& effects : {EffectSet::all(), EffectSet::all() - masks}) {
+    FrameParameters p{.width = 64, .height = 36, .rsm = 32, .lights = 8, .visibility = Visibility::exact};
+    p.effects = effects;
+    Frame* self = nullptr;
+    const MethodInfo& vpl = load_method("vpl", lab.device().info());
+    Frame frame(lab.stage, vpl, resolve_parameters(vpl, Json::object()), p,
+                [&](const std::vector<LightPoint>& lights) {
+                  const auto found = shared.trace(*self, lights);
+                  EXPECT_TRUE(found == VisibilityTracer(lab.tracer, &wall).trace(*self, lights));
+                  bits.push_back(found);
+                  return found;
+                });
+    self = &frame;
+    frame.render(0);
+  }
+  ASSERT_EQ(bits.size(), 2u);
+  EXPECT_FALSE(bits[0] == bits[1]) << "the mask hides nothing";
 }
 
 // Only metal is lit: the lights have no diffuse lobe.

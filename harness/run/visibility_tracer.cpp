@@ -29,7 +29,7 @@ TargetPoint VisibilityTracer::target_of(const LightPoint& light, size_t index) c
 }
 
 const std::vector<ReceiverPoint>& VisibilityTracer::receivers_of(const Frame& frame) {
-  auto& points = receivers_[{frame.camera().width, frame.camera().height}];
+  auto& points = receivers_[{frame.camera().width, frame.camera().height, frame.effects()}];
   if (!points.empty()) return points;
   const auto position = download_map(frame.gbuffer().maps[0]);
   const auto normal = download_map(frame.gbuffer().geometric_normals());

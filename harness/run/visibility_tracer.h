@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "frame/frame.h"
@@ -26,7 +26,8 @@ class VisibilityTracer {
   TargetPoint target_of(const LightPoint& light, size_t index) const;
   const Tracer& tracer_;
   WallTime* wall_;
-  std::map<std::pair<uint32_t, uint32_t>, std::vector<ReceiverPoint>> receivers_;  // by frame size
+  // By frame size and effects: a mask that is left out leaves other surfaces.
+  std::map<std::tuple<uint32_t, uint32_t, EffectSet>, std::vector<ReceiverPoint>> receivers_;
 };
 
 }  // namespace vsglbench
