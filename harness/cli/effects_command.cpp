@@ -158,7 +158,9 @@ void add_effects_command(CLI::App& app) {
   command->add_option("--rounds", options->rounds, "frames of each kind")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--time-limit", options->time_limit, "seconds after which a method that gives no sign is stopped")
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "seconds after which a method that gives no sign is stopped")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command->add_flag("--json", options->json, "as JSON");

@@ -42,8 +42,9 @@ class PluginTest : public CliTest {
 
 TEST_F(PluginTest, PricingEffectsByABadOneEndsInALine) {
   const auto price = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> all = {"--plugin-path", bad_.string(), "effects", "cornell", "--price",
-                                    "--rounds", "1", "--width", "16", "--height", "16", "--rsm", "16"};
+    std::vector<std::string> all = {
+        "--plugin-path", bad_.string(), "effects",  "cornell", "--price", "--rounds", "1",
+        "--width",       "16",          "--height", "16",      "--rsm",   "16"};
     all.insert(all.end(), more.begin(), more.end());
     return run(all);
   };

@@ -42,8 +42,8 @@ std::string total_of(const EffectPricing& p) {
   return fmt::format(
       "{}: {:.1f} ms and {:.1f} MiB; with all effects {:.1f} ms and {:.1f} MiB, {:.2f} [{:.2f} … {:.2f}] "
       "times as long; {} rounds, {:.1f} s\n",
-      printable(p.case_id), p.span_ms, mib(p.bytes), p.span_ms_all, mib(p.bytes_all), p.ratio.value, p.ratio.ci95.lo,
-      p.ratio.ci95.hi, p.rounds, p.seconds);
+      printable(p.case_id), p.span_ms, mib(p.bytes), p.span_ms_all, mib(p.bytes_all), p.ratio.value,
+      p.ratio.ci95.lo, p.ratio.ci95.hi, p.rounds, p.seconds);
 }
 
 }  // namespace

@@ -319,7 +319,8 @@ TEST(EffectsAdversary, AnAlphaMaskWhoseOnlyHoleIsOneTexel) {
   expect_called_for(lab, Effect::alpha_masks);
 }
 
-// Of two cases of a scene, one leaves the masks out: each one's shadow rays start from the surfaces that it sees.
+// Of two cases of a scene, one leaves the masks out: each one's shadow rays start from the surfaces that it
+// sees.
 TEST(EffectsAdversary, RaysStartFromWhatTheirFrameSees) {
   uint32_t white = 0;
   SceneMaker maker = open_room(&white);
