@@ -48,7 +48,7 @@ TEST_F(PluginTest, PricingEffectsByABadOneEndsInALine) {
     all.insert(all.end(), more.begin(), more.end());
     return run(all);
   };
-  expect_refused(price({"--method", "crashes"}), 1, "crashes while opening with the effects");
+  expect_refused(price({"--method", "crashes"}), 1, "crashes while a frame with the effects");
   expect_refused(price({"--method", "hangs", "--time-limit", "2"}), 1, "without a sign of life");
   expect_refused(price({"--lights", "0"}), 2, "--lights");
   expect_refused(price({"--method", "no-such"}), 2, "no-such");

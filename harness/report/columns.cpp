@@ -6,6 +6,14 @@
 #include "report/noise.h"
 
 namespace vsglbench {
+
+std::string range_of(const std::vector<double>& values) {
+  if (values.empty()) return "";
+  const auto [least, most] = std::ranges::minmax(values);
+  const std::string text = significant(least, 2), other = significant(most, 2);
+  return text == other ? text : text + " … " + other;
+}
+
 namespace {
 
 using Floor = std::optional<double> (*)(const ReferenceInfo&);
@@ -18,17 +26,13 @@ std::string number_of(const MetricResult& metric, double scale, const char* form
   return fmt::format(fmt::runtime(format), value * scale);
 }
 
-// "4.2", or "4.2 … 7.1" where cases of a scene have references of different noise.
 std::string floors_of(const Report& report, const std::string& scene, double scale, Floor floor) {
   std::vector<double> all;
   for (const CaseResult& c : report.cases) {
     if (c.scene != scene || !c.accuracy) continue;
     if (const auto value = floor(c.accuracy->reference)) all.push_back(*value * scale);
   }
-  if (all.empty()) return "";
-  const auto [least, most] = std::ranges::minmax(all);
-  const std::string text = significant(least, 2), other = significant(most, 2);
-  return text == other ? text : text + " … " + other;
+  return range_of(all);
 }
 
 Column error_column(const char* name, const char* head, Metric which, MetricResult Accuracy::*metric,
@@ -93,6 +97,9 @@ std::optional<Moving> derivative_of(const Temporal& t) {
 std::optional<Moving> static_of(const Temporal& t) {
   return t.still ? std::optional(Moving{t.still->value, t.still->ci95}) : std::nullopt;
 }
+std::optional<Moving> gain_of(const Temporal& t) {
+  return t.detail ? std::optional(Moving{t.detail->gain, std::nullopt}) : std::nullopt;
+}
 std::optional<Moving> detail_of(const Temporal& t) {
   return t.detail ? std::optional(Moving{t.detail->value, t.detail->ci95}) : std::nullopt;
 }
@@ -118,7 +125,12 @@ Column temporal_column(const char* name, const char* head, std::optional<Moving>
     const std::string half = v->ci95 ? fmt::format(" ± {:.2g}", 0.5 * v->ci95->width()) : "";
     return fmt::format("{:.4f}{}", v->value, half);
   };
-  column.floor = [](const Report&, const std::string&) { return std::string(); };
+  column.floor = [=](const Report& report, const std::string& scene) {
+    std::vector<double> all;
+    for (const CaseResult& c : report.cases)
+      if (c.scene == scene && c.temporal && of == derivative_of) all.push_back(c.temporal->noise_floor);
+    return range_of(all);
+  };
   return column;
 }
 
@@ -215,6 +227,7 @@ const std::vector<Column>& frame_columns() {
       temporal_column(kTemporalColumns[0], "flicker", derivative_of),
       temporal_column(kTemporalColumns[1], "static flicker", static_of),
       temporal_column(kTemporalColumns[2], "detail", detail_of),
+      temporal_column(kTemporalColumns[3], "gain", gain_of),
       time_column("generate", "generate ms"),
       time_column("method", "method ms [95 %]", true),
       time_column("rays", "rays ms (host)"),

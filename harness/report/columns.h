@@ -23,8 +23,11 @@ struct Column {
   bool on_request = false;  // stands in a table only where it is named
 };
 
+// "4.2", or "4.2 … 7.1" where values differ; empty for none.
+std::string range_of(const std::vector<double>& values);
+
 // The columns that only scenes in motion have.
-inline constexpr const char* kTemporalColumns[] = {"flicker", "static_flicker", "detail"};
+inline constexpr const char* kTemporalColumns[] = {"flicker", "static_flicker", "detail", "gain"};
 
 // Columns for whole frames: errors are means over seeds, and one that is not above the reference's own noise
 // is followed by "≤ floor VALUE"; times are medians in ms.

@@ -1,5 +1,7 @@
 #include "report/table_layout.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -202,15 +204,27 @@ namespace {
 // What the columns of flicker are; empty where none is shown.
 std::string note_on_flicker(const std::vector<const CaseResult*>& cases, const std::vector<Column>& columns) {
   const auto is_temporal = [](const Column& c) { return std::ranges::count(kTemporalColumns, c.name) > 0; };
-  const auto moves = [](const CaseResult* c) { return c->temporal.has_value(); };
-  if (std::ranges::none_of(columns, is_temporal) || std::ranges::none_of(cases, moves)) return "";
-  return "over the frames in motion, relative to the mean of the references: flicker, how far the image "
-         "changes from "
-         "frame to frame other than its reference, so that light which lags or is blurred away counts too, "
-         "mean and 95 % "
-         "over seeds; static flicker, the standard deviation of a still frame over seeds; detail, how much "
-         "of the "
-         "reference's is left: 1 as sharp, below 1 blurred";
+  if (std::ranges::none_of(columns, is_temporal)) return "";
+  std::set<uint64_t> frames, seeds;
+  std::vector<double> unlit;
+  for (const CaseResult* c : cases) {
+    if (!c->temporal) continue;
+    frames.insert(c->temporal->frames);
+    seeds.insert(c->temporal->seeds);
+    unlit.push_back(c->temporal->unlit);
+  }
+  if (frames.empty()) return "";
+  return fmt::format(
+      "over {} frames in motion and {} seeds, relative to the mean of the references: flicker, how far the "
+      "image "
+      "changes from frame to frame other than its reference, so that light which lags, is blurred away or "
+      "never "
+      "comes counts too (a black image has {}); static flicker, how far apart two seeds' images of one frame "
+      "are; "
+      "detail, how much of the reference's is left: 1 as sharp, below 1 blurred; gain, how bright the image "
+      "is "
+      "beside the reference: what loses light flickers less",
+      fmt::join(frames, " or "), fmt::join(seeds, " or "), range_of(unlit));
 }
 
 }  // namespace
