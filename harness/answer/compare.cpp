@@ -53,6 +53,16 @@ constexpr std::array<MetricField, 7> kFields = {{{"smape", Metric::smape, &Accur
                                                  {"bias", Metric::bias, &Accuracy::bias},
                                                  {"flip", Metric::flip, &Accuracy::flip}}};
 
+// A setting that is in no case's name, as of `run --set`: "skip_effects '' and 'occlusion'". Empty: none; a
+// key that one of the two does not know is not compared.
+std::string other_setting(const CaseResult& base, const CaseResult& now) {
+  for (const auto& [key, value] : base.parameters.items()) {
+    if (!now.parameters.contains(key) || now.parameters.at(key) == value) continue;
+    return fmt::format("{} {} and {}", key, value.dump(), now.parameters.at(key).dump());
+  }
+  return "";
+}
+
 std::string refusal_of(const Report& base, const Report& now, const std::vector<CasePair>& pairs,
                        const CompareOptions& options) {
   if (pairs.empty()) return "no case is in both reports and ok in both";
@@ -61,6 +71,11 @@ std::string refusal_of(const Report& base, const Report& now, const std::vector<
                        base.device.name, now.device.name);
   }
   for (const CasePair& p : pairs) {
+    const std::string setting = options.other_settings ? "" : other_setting(*p.base, *p.now);
+    if (!setting.empty()) {
+      return fmt::format("{}: the settings differ, {}; --other-settings compares all the same", p.base->id,
+                         setting);
+    }
     if (!p.base->accuracy || !p.now->accuracy) continue;
     if (p.base->accuracy->reference.hash != p.now->accuracy->reference.hash) {
       return fmt::format("{}: the references differ ({} and {}), so the errors are of other things",

@@ -21,7 +21,8 @@ struct CompareOptions {
   // times are divided by what all of a scene takes longer in it, the median ratio over the stages of all
   // cases.
   bool ratios = false;
-  bool other_device = false;  // compare absolute times of two devices all the same
+  bool other_device = false;    // compare absolute times of two devices all the same
+  bool other_settings = false;  // compare cases of one name whose parameters differ all the same
 };
 
 // One time of one case, or of many: ratio new / base.
@@ -63,7 +64,7 @@ struct Comparison {
   int exit_code() const;
 };
 
-// Refuses other formula ids, other reference hashes, and other devices unless told to.
+// Refuses other formula ids and reference hashes, and, unless told to, other devices and other parameters.
 Comparison compare_reports(const Report& base, const Report& now, const CompareOptions& options = {});
 
 // What changed, one line each, worst first, and a summary. `markdown`: for a pull request.

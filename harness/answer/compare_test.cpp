@@ -117,6 +117,21 @@ TEST(Compare, RefusesWhatIsNotComparable) {
   EXPECT_NE(compare_reports(base, Report{}).refusal, "");
 }
 
+// `run --set` and `--skip-effects` change a case and not its name.
+TEST(Compare, RefusesCasesOfOneNameAndOtherSettings) {
+  Report base = measured(1), other = base;
+  base.cases[3].parameters["skip_effects"] = "";
+  other.cases[3].parameters["skip_effects"] = "occlusion";
+  const Comparison c = compare_reports(base, other);
+  EXPECT_NE(c.refusal.find(base.cases[3].id + ": the settings differ, skip_effects \"\" and \"occlusion\""),
+            std::string::npos)
+      << c.refusal;
+  EXPECT_EQ(c.exit_code(), 5);
+  EXPECT_EQ(compare_reports(base, other, {.other_settings = true}).refusal, "");
+  base.cases[3].parameters.erase("skip_effects");  // a report of before there was such a key
+  EXPECT_EQ(compare_reports(base, other).refusal, "");
+}
+
 // Another machine, half as fast in everything: within it, methods stand to each other as before.
 TEST(Compare, RatiosHoldOnAnyMachine) {
   Report slow = measured(2);

@@ -26,7 +26,8 @@ void add_compare_command(CLI::App& app, CommandResult* result) {
       "0.5 %, "
       "and a probability of\nsuperiority of 0.8. Errors: seeds are pairs.\nRefused: other formulas, other "
       "references, other devices (unless --ratios or "
-      "--other-device).\n"
+      "--other-device), cases of one\nname whose settings differ, as by `run --set` (unless "
+      "--other-settings).\n"
       "With byte-equal kernels, plugins and driver on one device, differences of time are noise: they are "
       "listed, and the exit code is 0\nunless errors are worse.\n"
       "Exit codes: 0 nothing is worse, 4 something is, 5 refused, or a pass may be slower and can't be "
@@ -40,6 +41,8 @@ void add_compare_command(CLI::App& app, CommandResult* result) {
       "which holds on any machine");
   command->add_flag("--other-device", options->options.other_device,
                     "compare times of two devices all the same");
+  command->add_flag("--other-settings", options->options.other_settings,
+                    "compare cases of one name whose settings differ all the same");
   command->add_flag("--markdown", options->markdown, "as Markdown, for a pull request");
   command->callback([=] {
     const Comparison c =
