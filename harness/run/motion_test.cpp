@@ -209,6 +209,46 @@ TEST_F(MotionTest, APlantedFlickerIsFoundInItsFrame) {
   }
 }
 
+// The scene's light has a fifth more power in frame 3 and a fifth less in frame 5, which its reference has
+// not: each change and each return is found in its frame, and is a fifth of the image's light.
+TEST_F(MotionTest, AFlickeringLightIsFoundInItsFrames) {
+  constexpr uint32_t kFrames = 8;
+  config_["motion"]["seeds"] = 1;
+  const auto frames_of = [&](bool flickers, const char* folder) {
+    Json scene = ring_scene(kFrames, false);
+    Json keys = Json::array();
+    for (uint32_t t = 0; t < kFrames; ++t) {
+      const double power = !flickers ? 1 : t == 3 ? 1.2 : t == 5 ? 0.8 : 1;
+      keys.push_back({{"time", t / 4.0}, {"intensity", 10 * power}});
+    }
+    Json& spot = scene["views"]["front"]["light"]["spot"];
+    spot["interpolation"] = "step";
+    spot["keys"] = keys;
+    use(scene);
+    const CaseResult c = run().at(0);
+    std::vector<MotionFrame> frames;
+    for (uint32_t t = 0; t < kFrames; ++t) frames.push_back(read_motion_frame(out_ / c.images.at(folder), t));
+    return frames;
+  };
+  const auto x = frames_of(true, "frames"), r = frames_of(false, "reference_frames");
+  DerivativeFlickerMeter meter;
+  double light = 0, reference = 0;
+  for (uint32_t t = 0; t < kFrames; ++t) {
+    meter.add(x[t].image, r[t].image, x[t].mask);
+    for (size_t i = 0; i < x[0].image.pixels.size(); ++i) {
+      if (x[0].mask[i] == 0) continue;
+      light += x[0].image.pixels[i].x + x[0].image.pixels[i].y + x[0].image.pixels[i].z;
+      reference += r[0].image.pixels[i].x + r[0].image.pixels[i].y + r[0].image.pixels[i].z;
+    }
+  }
+  const std::vector<double> series = meter.finish()->series;
+  for (uint32_t t = 1; t < kFrames; ++t) {
+    const bool planted = t >= 3 && t <= 6;  // brighter, back, darker, back
+    EXPECT_NEAR(series[t - 1], planted ? 0.2 * light / reference : 0, 1e-3 * light / reference)
+        << "frame " << t;
+  }
+}
+
 TEST_F(MotionTest, WhatHangsStillDoesNotFlicker) {
   use(ring_scene(4, false));
   config_["motion"]["frames"] = 3;
