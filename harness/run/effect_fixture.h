@@ -119,4 +119,16 @@ inline Forced with_and_without(Laboratory& lab, const std::string& method, Frame
   return out;
 }
 
+constexpr double kEqual = 1e-5;  // relative, per pixel
+inline const FrameParameters kSmall{.rsm = 64, .lights = 64, .visibility = Visibility::none};
+
+inline void expect_equal(Laboratory& lab, const std::string& method, const FrameParameters& p,
+                         const Json& own = Json::object()) {
+  const Forced images = with_and_without(lab, method, p, own);
+  std::printf("%s %s: %.2g\n", lab.scene.name.c_str(), method.c_str(), images.difference);
+  EXPECT_LT(images.difference, kEqual) << lab.scene.name << ", " << method;
+  const Health health = check_health(images.derived);
+  EXPECT_TRUE(health.finite());
+}
+
 }  // namespace vsglbench
