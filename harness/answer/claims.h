@@ -57,6 +57,9 @@ std::vector<PaperClaim> load_claims(const std::filesystem::path& file = {});
 // "fis|mfis K=1", as a person would say which cases these are.
 std::string settings_text(const Json& settings);
 
+// What is compared, and what is said: "fis|mfis K=1 beside vpl, at equal N; the ratio must be below 1".
+std::string comparison_text(const PaperClaim& claim);
+
 TriedClaim try_claim(const Report& report, const PaperClaim& claim);
 
 std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool markdown);

@@ -7,19 +7,6 @@
 namespace vsglbench {
 namespace {
 
-// "fis|mfis K=1 beside vpl, at equal N: the ratio must be below 1"
-std::string pair_text(const PaperClaim& c) {
-  const std::string step = c.step.empty() ? "" : c.step + " beside the next smaller " + c.step;
-  std::string out = c.step.empty() ? settings_text(c.a) + " beside " + settings_text(c.b) : step;
-  if (!c.both.empty()) out += ", both " + settings_text(c.both);
-  out += c.equal_time ? ", at equal time" : c.a.contains("N") || c.step == "N" ? "" : ", at equal N";
-  return out + fmt::format("; the ratio must be {} {:.3g}",
-                           c.says == Says::less   ? "below"
-                           : c.says == Says::more ? "above"
-                                                  : "no more than",
-                           c.factor);
-}
-
 std::string ratio_text(const ClaimRow& r) {
   return r.pairs == 0 ? "" : fmt::format("{:.3g} [{:.3g}, {:.3g}]", r.ratio, r.ci95.lo, r.ci95.hi);
 }
@@ -60,7 +47,7 @@ std::string why_not_at_all(const TriedClaim& tried) {
 
 std::string terminal(const TriedClaim& tried) {
   std::string out = fmt::format("{}: {}\n  {}  {}\n  {}\n", tried.claim.name, summary(tried),
-                                tried.claim.text, tried.claim.source, pair_text(tried.claim));
+                                tried.claim.text, tried.claim.source, comparison_text(tried.claim));
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "    " + why + "\n";
   size_t scene = 5;
   for (const ClaimRow& r : tried.rows) scene = std::max(scene, r.scene.size());
@@ -75,7 +62,7 @@ std::string terminal(const TriedClaim& tried) {
 
 std::string markdown(const TriedClaim& tried) {
   std::string out = fmt::format("**{}**: {}. {} {}\n\n{}.\n\n", tried.claim.name, summary(tried),
-                                tried.claim.text, tried.claim.source, pair_text(tried.claim));
+                                tried.claim.text, tried.claim.source, comparison_text(tried.claim));
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
   out += "| scene | metric | ruling | ratio [95 %] | pairs, each alone |\n| --- | --- | --- | ---: | --- |\n";
   for (const ClaimRow& r : tried.rows)
@@ -96,6 +83,18 @@ std::string settings_text(const Json& settings) {
     parts.push_back(item.key() == "method" ? value : item.key() + "=" + value);
   }
   return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string comparison_text(const PaperClaim& c) {
+  const std::string step = c.step.empty() ? "" : c.step + " beside the next smaller " + c.step;
+  std::string out = c.step.empty() ? settings_text(c.a) + " beside " + settings_text(c.b) : step;
+  if (!c.both.empty()) out += ", both " + settings_text(c.both);
+  out += c.equal_time ? ", at equal time" : c.a.contains("N") || c.step == "N" ? "" : ", at equal N";
+  return out + fmt::format("; the ratio must be {} {:.3g}",
+                           c.says == Says::less   ? "below"
+                           : c.says == Says::more ? "above"
+                                                  : "no more than",
+                           c.factor);
 }
 
 std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool as_markdown) {

@@ -169,6 +169,12 @@ JsonDocument JsonDocument::of(std::string text, std::string name, ErrorKind kind
   return doc;
 }
 
+JsonDocument JsonDocument::patched(const Json& patch) const {
+  JsonDocument out = *this;
+  out.root_.merge_patch(patch);
+  return out;
+}
+
 int JsonDocument::line(std::string pointer) const {
   if (lines_.empty()) {
     LineCounter counter;

@@ -28,6 +28,10 @@ class JsonDocument {
   // Line (from 1) of the value at a JSON pointer such as "/light/fov"; of its nearest known parent else.
   int line(std::string pointer) const;
 
+  // The same file with a patch applied (JSON Merge Patch, RFC 7386): a value of the patch has the line of its
+  // nearest parent that the file has.
+  JsonDocument patched(const Json& patch) const;
+
   // Error(kind) "NAME:LINE: MESSAGE" for the value at `pointer`.
   Error error(const std::string& pointer, const std::string& message) const;
 

@@ -12,6 +12,7 @@ struct CommandResult {
   int exit_code = 0;
 };
 
+void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result);
 void add_list_command(CLI::App& app, CommandResult* result);
 void add_reference_command(CLI::App& app, CommandResult* result);

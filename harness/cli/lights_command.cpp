@@ -81,6 +81,7 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
   command->add_option("--format", *format, "of the list of lights")
       ->check(CLI::IsMember({"json", "csv"}))
       ->capture_default_str();
+  command->add_option("--scale", options->scale, "of the config's scales, such as quick: its keys replace the config's");
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device,
                       "Vulkan device: index, UUID, PCI address or part of its name");

@@ -109,6 +109,7 @@ int main(int argc, char** argv) {
   });
   CommandResult result;
   add_run_command(app, arguments, &result);
+  add_reproduce_command(app, arguments, &result);
   add_list_command(app, &result);
   add_reference_command(app, &result);
   add_effects_command(app);

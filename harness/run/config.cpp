@@ -77,6 +77,34 @@ void check_effects(const JsonDocument& doc) {
   }
 }
 
+void check_keys(const JsonDocument& doc) {
+  check_effects(doc);
+  check_schema(doc, config_schema());
+}
+
+// The file with the keys of one of its scales, and none of the others.
+JsonDocument at_scale(const JsonDocument& file, const std::string& scale) {
+  const Json scales = file.root().value("scales", Json::object());
+  if (!scale.empty() && !scales.contains(scale)) {
+    std::vector<std::string> known;
+    for (const auto& item : scales.items()) known.push_back(item.key());
+    throw file.error("", known.empty() ? fmt::format("has no scale '{}', nor any other", scale)
+                                       : fmt::format("has no scale '{}'; it has {}", scale, fmt::join(known, ", ")));
+  }
+  Json patch = scale.empty() ? Json::object() : scales.at(scale);
+  if (patch.contains("scales"))
+    throw file.error("/scales/" + pointer_token(scale), "has scales of its own");
+  patch["scales"] = nullptr;
+  const JsonDocument doc = file.patched(patch);
+  try {
+    check_keys(doc);
+  } catch (const Error& e) {  // it stands in the scale, whatever stands elsewhere under this name
+    const std::string message = e.what();
+    throw file.error("/scales/" + pointer_token(scale), message.substr(message.find(": ", doc.name().size()) + 2));
+  }
+  return doc;
+}
+
 void check_scenes(const JsonDocument& doc, const std::vector<std::string>& scenes) {
   std::map<std::string, std::string> seen;  // name, by what it stands for
   for (size_t i = 0; i < scenes.size(); ++i) {
@@ -217,14 +245,14 @@ const Json& config_schema() {
   return schema;
 }
 
-Config load_config(const fs::path& path, const Overrides& overrides) {
-  const JsonDocument doc = JsonDocument::load(path, ErrorKind::config);
-  if (doc.root().is_object() && doc.root().contains("figure")) {
-    throw doc.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`",
-                                           path.stem().string()));
+Config load_config(const fs::path& path, const Overrides& overrides, const std::string& scale) {
+  const JsonDocument file = JsonDocument::load(path, ErrorKind::config);
+  if (file.root().is_object() && file.root().contains("figure")) {
+    throw file.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`",
+                                            path.stem().string()));
   }
-  check_effects(doc);
-  check_schema(doc, config_schema());
+  check_keys(file);
+  const JsonDocument doc = at_scale(file, scale);
   Json root = doc.root();
   apply(overrides, &root);
   Config config;
@@ -244,6 +272,7 @@ Config load_config(const fs::path& path, const Overrides& overrides) {
   config.cases = expand_cases(doc, root, overrides, base);
   check_read(overrides, config.cases);
   config.resolved = resolved_settings(config, base, root, preset);
+  if (!scale.empty()) config.resolved["scale"] = scale;
   if (!overrides.empty()) config.resolved["set"] = overrides;
   return config;
 }

@@ -43,9 +43,10 @@ struct Config {
 };
 
 // Throws Error(config) "FILE:LINE: ..." for anything unknown, of a wrong type, out of range, a scene that
-// does not exist, or a sweep that makes the same case twice. `overrides` (run/overrides.h) replace what the
-// file says.
-Config load_config(const std::filesystem::path& path, const Overrides& overrides = Json::object());
+// does not exist, or a sweep that makes the same case twice. `scale` is a name of the file's `scales`, whose
+// keys replace the file's; empty: none. `overrides` (run/overrides.h) replace what the file says.
+Config load_config(const std::filesystem::path& path, const Overrides& overrides = Json::object(),
+                   const std::string& scale = "");
 
 // The schema of an experiment file.
 const Json& config_schema();

@@ -126,6 +126,46 @@ TEST_F(ConfigTest, GenerationAloneReadsNothingOfImages) {
   EXPECT_TRUE(contains(problem(), "measure"));
 }
 
+TEST_F(ConfigTest, AScaleReplacesKeysAndNothingElse) {
+  config_["frame"] = {{"width", 100}, {"height", 50}};
+  config_["N"] = 256;
+  config_["rsm"] = 64;
+  config_["scales"] = {{"quick", {{"frame", {{"width", 20}}}, {"N", {4, 16}}}}, {"huge", {{"rsm", 128}}}};
+  const auto path = write_config();
+  const Config as_it_is = load_config(path), quick = load_config(path, Json::object(), "quick");
+  EXPECT_EQ(as_it_is.cases[0].frame.width, 100u);
+  EXPECT_EQ(as_it_is.cases[0].frame.lights, 256u);
+  EXPECT_FALSE(as_it_is.resolved.contains("scale"));
+  EXPECT_FALSE(as_it_is.resolved.contains("scales"));
+  EXPECT_EQ(quick.cases.size(), 2 * as_it_is.cases.size());
+  EXPECT_EQ(quick.cases[0].frame.width, 20u);
+  EXPECT_EQ(quick.cases[0].frame.height, 50u);  // objects are merged
+  EXPECT_EQ(quick.cases[0].frame.lights, 4u);
+  EXPECT_EQ(quick.cases[0].frame.rsm, 64u);
+  EXPECT_EQ(quick.resolved["scale"], "quick");
+  EXPECT_EQ(load_config(path, Json::object(), "huge").cases[0].frame.rsm, 128u);
+}
+
+TEST_F(ConfigTest, AScaleThatIsAbsentOrWrongIsTold) {
+  const auto problem_at = [&](const std::string& scale) {
+    try {
+      load_config(write_config(), Json::object(), scale);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.exit_code(), 2);
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_TRUE(contains(problem_at("quick"), "has no scale 'quick', nor any other"));
+  config_["scales"] = {{"small", {{"N", 4}}}, {"wrong", {{"width", 4}}}, {"nested", {{"scales", Json::object()}}}};
+  EXPECT_TRUE(contains(problem_at("quick"), "has no scale 'quick'; it has small, wrong, nested"));
+  EXPECT_TRUE(contains(problem_at("wrong"), "unknown key 'width'")) << problem_at("wrong");
+  EXPECT_TRUE(contains(problem_at("wrong"), "'scales/wrong'")) << problem_at("wrong");
+  EXPECT_TRUE(contains(problem_at("nested"), "has scales of its own"));
+  config_["scales"] = 3;
+  EXPECT_TRUE(contains(problem(), "must be object"));
+}
+
 TEST_F(ConfigTest, TheTimeLimitHasADefault) {
   EXPECT_EQ(load().time_limit_s, 600);
   config_["time_limit_s"] = 2.5;

@@ -236,7 +236,7 @@ LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const Frame
 }
 
 std::vector<LightsResult> run_lights(const LightsOptions& options) {
-  const Config config = load_config(options.config);
+  const Config config = load_config(options.config, Json::object(), options.scale);
   const std::vector<Case> cases = select_cases(config.cases, options.cases, "--case");
   const fs::path out =
       fs::absolute(options.out.empty() ? fs::path("reports") / "out" / config.name / "lights" : options.out);

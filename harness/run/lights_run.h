@@ -17,6 +17,7 @@ namespace vsglbench {
 
 struct LightsOptions {
   std::filesystem::path config;
+  std::string scale;               // of the config's `scales`; empty: none
   std::filesystem::path out;       // empty: reports/out/<name of the config>/lights
   std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
   std::vector<std::string> cases;  // globs over their ids; empty: all

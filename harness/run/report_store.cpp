@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <thread>
@@ -87,6 +88,18 @@ std::optional<Report> ReportStore::saved(const Report& fresh, bool anew) {
   } catch (const Error& e) {
     log_warning("{}; it is kept as report.damaged.json", e.what());
     aside_ = folder_ / "report.damaged.json";
+  }
+  return std::nullopt;
+}
+
+std::optional<Report> ReportStore::finished(const Report& fresh) const {
+  std::error_code ec;
+  if (!fs::exists(path_, ec)) return std::nullopt;
+  try {
+    Report report = read_report(path_);
+    const auto skipped = [](const CaseResult& c) { return c.status == Status::skipped; };
+    if (report.complete && same_run(report, fresh) && std::ranges::none_of(report.cases, skipped)) return report;
+  } catch (const Error&) {  // open() tells of what is damaged
   }
   return std::nullopt;
 }

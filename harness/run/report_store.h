@@ -25,6 +25,8 @@ class ReportStore {
   // What to go on with: the report of an interrupted run of the same experiment, program and device, saved
   // already or only begun; else `fresh`, and always so with `anew`.
   Report open(const Report& fresh, bool anew);
+  // A complete report of the same experiment, program and device, no scene of which was skipped.
+  std::optional<Report> finished(const Report& fresh) const;
   // In a child process: closes its copy of the lock, which is the parent's alone. Without it a child that
   // dies a moment after the parent would keep the next run out.
   void leave_to_parent();

@@ -25,7 +25,7 @@ namespace vsglbench {
 namespace {
 
 Config read_config(const RunOptions& options) {
-  Config config = load_config(options.config, parse_overrides(options.set));
+  Config config = load_config(options.config, parse_overrides(options.set), options.scale);
   for (Case& c : config.cases) c.frame.check_passes = options.check_passes;
   if (options.price_effects > 0) {
     if (config.measure == Measure::generation)
@@ -201,7 +201,15 @@ RunOutcome run_config(const RunOptions& options) {
 
   RunOutcome outcome;
   outcome.report_path = store.path();
-  Report& report = outcome.report = store.open(fresh_report(options, config, device), options.force);
+  const Report fresh = fresh_report(options, config, device);
+  if (options.keep_complete) {
+    if (auto finished = store.finished(fresh)) {
+      outcome.report = std::move(*finished);
+      outcome.exit_code = exit_code(outcome, false);
+      return outcome;
+    }
+  }
+  Report& report = outcome.report = store.open(fresh, options.force);
   const std::vector<Json> noted = take_notes(store, &report);
   if (!report.cases.empty() || !noted.empty())
     log_info("going on with the interrupted run in {}", store.path().string());

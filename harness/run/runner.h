@@ -16,8 +16,10 @@ struct RunOptions {
   std::filesystem::path assets;   // empty: $VSGLBENCH_ASSETS
   std::vector<std::string> only;  // globs over case ids; empty: all
   std::vector<std::string> set;   // "KEY=VALUE", in place of what the config says
+  std::string scale;              // of the config's `scales`; empty: none
   std::string device;             // as in select_device()
   bool force = false;             // measure again what an interrupted run had finished
+  bool keep_complete = false;     // a complete report of the same experiment, program and device stands
   bool validation = false;        // with the validation layers; a message fails the run
   bool check_passes = false;   // every pass by itself, its outputs looked at: FrameParameters::check_passes
   uint32_t price_effects = 0;  // replaces the config's; 0: the config's

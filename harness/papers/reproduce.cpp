@@ -1,0 +1,319 @@
+#include "papers/reproduce.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "measure/stopwatch.h"
+#include "papers/measured_table.h"
+#include "papers/sheet.h"
+#include "report/case_names.h"
+#include "report/environment.h"
+#include "report/table.h"
+#include "run/scene_images.h"
+
+namespace fs = std::filesystem;
+
+namespace vsglbench {
+namespace {
+
+// --- what was measured, as JSON ---
+
+Json to_json(const MeasuredRow& row, const std::string& machine) {
+  Json json = {{"column", row.column}, {"name", row.name}, {"published", row.published}, {"machine", machine}};
+  if (row.sum) json["sum"] = true;
+  if (row.value) json.update({{"value", *row.value}, {"mean", row.mean}});
+  if (row.ci95) json["ci95"] = {row.ci95->lo, row.ci95->hi};
+  for (const MeasuredPass& pass : row.passes)
+    json["passes"].push_back({{"name", pass.name}, {"mean_ms", pass.mean_ms}});
+  return json;
+}
+
+Json to_json(const MeasuredTable& table, const Exhibit& exhibit) {
+  Json rows = Json::array();
+  for (const MeasuredRow& row : table.rows) {
+    const auto column = std::ranges::find(exhibit.table, row.column, &PublishedColumn::head);
+    rows.push_back(to_json(row, column->machine));
+  }
+  return {{"scene", table.scene}, {"unit", table.unit}, {"rows", rows}};
+}
+
+// --- the sheet ---
+
+std::string preview(std::string exr) {
+  if (exr.ends_with(".exr")) exr.replace(exr.size() - 4, 4, ".png");
+  return exr;
+}
+
+std::string metrics_line(const CaseResult& c) {
+  if (!c.accuracy) return "";
+  const auto value = [](const MetricResult& m) { return m.heavy_tailed ? m.median : m.value; };
+  const auto rmse = value(c.accuracy->rmse), smape = value(c.accuracy->smape);
+  return rmse && smape ? fmt::format("SMAPE {:.3g} %  RMSE {:.3g}", *smape, *rmse) : "";
+}
+
+// A block a scene: a row a kind of image, a tile a case; the reference stands first in the first row.
+std::vector<SheetRow> rows_of(const Work<Report>& work, const SheetPart& part) {
+  std::vector<SheetRow> out;
+  std::vector<std::string> scenes;
+  for (const CaseResult& c : work.result.cases) {
+    if (std::ranges::count(scenes, c.scene) == 0) scenes.push_back(c.scene);
+  }
+  for (const std::string& scene : scenes) {
+    std::vector<const CaseResult*> cases;
+    std::vector<CaseResult> named;
+    for (const CaseResult& c : work.result.cases) {
+      if (c.scene != scene || !matches_glob(c.id, part.cases) || c.images.empty()) continue;
+      cases.push_back(&c);
+      named.push_back(c);
+    }
+    if (cases.empty()) continue;
+    const Captions captions = captions_of(named);
+    bool first = true;
+    for (const std::string& image : part.images) {
+      if (image == "reference") continue;
+      SheetRow row{first ? fmt::format("{}  {}", scene, captions.shared) : "", {}};
+      for (size_t i = 0; i < cases.size(); ++i) {
+        const CaseResult& c = *cases[i];
+        const bool with_reference = std::ranges::count(part.images, "reference") > 0;
+        if (i == 0 && first && with_reference && c.images.contains("reference"))
+          row.tiles.push_back({read_png(work.folder / preview(c.images.at("reference"))), "reference", ""});
+        if (!c.images.contains(image)) continue;
+        row.tiles.push_back({read_png(work.folder / preview(c.images.at(image))),
+                             captions.cases[i] + (image == "indirect" ? "" : ": " + image),
+                             image == "indirect" ? metrics_line(c) : ""});
+      }
+      if (!row.tiles.empty()) out.push_back(std::move(row));
+      first = false;
+    }
+  }
+  return out;
+}
+
+// A picture each, captioned with where it lies.
+SheetRow files_of(const fs::path& folder, const SheetPart& part) {
+  std::vector<std::string> paths;
+  std::error_code ec;
+  for (fs::recursive_directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
+    if (at->path().extension() == ".png") paths.push_back(at->path().lexically_relative(folder).generic_string());
+  }
+  std::ranges::sort(paths);
+  SheetRow row;
+  for (const std::string& glob : part.files) {
+    for (const std::string& path : paths) {
+      if (!matches_glob(path, glob)) continue;
+      const std::string caption = path.substr(0, path.size() - 4);
+      row.tiles.push_back({read_png(folder / path), caption, ""});
+    }
+  }
+  return row;
+}
+
+class ExhibitWork {
+ public:
+  ExhibitWork(const Exhibit& exhibit, const std::vector<PaperClaim>& claims, PapersWork* work,
+              const std::string& scale)
+      : exhibit_(exhibit), claims_(claims), work_(*work), scale_(scale) {}
+
+  Json measure(const fs::path& sheets);
+
+ private:
+  template <class Action>
+  void attempt(const std::string& what, const Action& action);
+  void add(const std::vector<Trial>& trials);
+  void take_run(const std::string& config);
+  void take_lights(const std::string& config);
+  void take_figure();
+  void take_code_size();
+  void add_sheet(const fs::path& sheets);
+  void note_machine(const DeviceReport& device);
+
+  const Exhibit& exhibit_;
+  const std::vector<PaperClaim>& claims_;
+  PapersWork& work_;
+  const std::string scale_;
+  Json json_;
+  std::vector<SheetRow> rows_;
+};
+
+// What a part can't do costs that part.
+template <class Action>
+void ExhibitWork::attempt(const std::string& what, const Action& action) {
+  const auto failed = [&](ErrorKind kind, const std::string& message) {
+    if (kind == ErrorKind::device) throw Error(kind, message);
+    json_["problems"].push_back(what + ": " + one_line(message));
+    log_warning("{}: {}: {}", exhibit_.name, what, message);
+  };
+  guarded(action, failed);
+}
+
+void ExhibitWork::add(const std::vector<Trial>& trials) {
+  for (const Trial& t : trials) json_["trials"].push_back(vsglbench::to_json(t));
+}
+
+void ExhibitWork::note_machine(const DeviceReport& d) {
+  json_["device"] = {{"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}};
+}
+
+void ExhibitWork::take_run(const std::string& config) {
+  const Work<Report>& work = work_.run(config);
+  const Report& report = work.result;
+  note_machine(report.device);
+  json_["measured"].push_back({{"config", config},
+                               {"created", report.created},
+                               {"commit", report.git.commit},
+                               {"dirty", report.git.dirty},
+                               {"wall_s", report.wall.total_s}});
+  for (const CaseResult& c : report.cases) {
+    if (c.status != Status::ok)
+      json_["problems"].push_back(fmt::format("{}: {}: {}", c.id, name(c.status), c.error ? c.error->message : ""));
+  }
+  for (const MeasuredTable& table : tables_of(report, exhibit_)) json_["tables"].push_back(to_json(table, exhibit_));
+  add(trials_of(report, exhibit_, claims_));
+  if (!exhibit_.columns.empty())
+    json_["reports"].push_back({{"config", config}, {"markdown", markdown_table(report, {.columns = exhibit_.columns})}});
+  for (const SheetPart& part : exhibit_.sheet) {
+    if (part.run != config) continue;
+    if (!part.files.empty()) rows_.push_back(files_of(work.folder, part));
+    for (SheetRow& row : rows_of(work, part)) rows_.push_back(std::move(row));
+  }
+}
+
+void ExhibitWork::take_lights(const std::string& config) {
+  const auto& work = work_.lights(config, exhibit_.light_cases);
+  for (const LightsResult& r : work.result) {
+    if (r.status != Status::ok) json_["problems"].push_back(fmt::format("{}: {}: {}", r.id, name(r.status), r.error));
+  }
+  add(trials_of(work.result, exhibit_));
+  for (const SheetPart& part : exhibit_.sheet) {
+    if (part.run == config + "-lights") rows_.push_back(files_of(work.folder, part));
+  }
+}
+
+void ExhibitWork::take_figure() {
+  const bool quick = scale_ == kQuickScale;
+  const auto& work = work_.figure(exhibit_.figure, quick ? exhibit_.quick_width : 0, quick ? exhibit_.quick_height : 0);
+  const Json& d = work.result.device;
+  json_["device"] = d;
+  add(trials_of(work.result, exhibit_));
+  for (const SheetPart& part : exhibit_.sheet) {
+    if (part.run == exhibit_.figure) rows_.push_back(files_of(work.folder, part));
+  }
+}
+
+void ExhibitWork::take_code_size() {
+  const Json& counted = work_.code_sizes();
+  const Json& sizes = counted.at("sizes");
+  json_["device"] = counted.at("device");
+  json_["tables"].push_back(to_json(code_size_table_of(sizes, exhibit_), exhibit_));
+  add(trials_of_code_size(sizes, exhibit_));
+}
+
+void ExhibitWork::add_sheet(const fs::path& sheets) {
+  std::erase_if(rows_, [](const SheetRow& row) { return row.tiles.empty(); });
+  if (rows_.empty()) return;
+  const std::string file = exhibit_.name + ".png";
+  write_png(sheets / file, draw_sheet(fmt::format("{} {}", exhibit_.source, exhibit_.title), rows_));
+  json_["sheet"] = file;
+}
+
+Json ExhibitWork::measure(const fs::path& sheets) {
+  const Stopwatch watch;
+  const HostInfo host = host_info();
+  json_ = {{"name", exhibit_.name},
+           {"source", exhibit_.source},
+           {"title", exhibit_.title},
+           {"scale", scale_},
+           {"command", fmt::format("vsglbench reproduce {} --scale {}", exhibit_.name, scale_)},
+           {"created", utc_now()},
+           {"commit", build_git().commit},
+           {"dirty", build_git().dirty},
+           {"host", {{"cpu", host.cpu}, {"cores", host.cores}}},
+           {"measured", Json::array()},
+           {"tables", Json::array()},
+           {"reports", Json::array()},
+           {"problems", Json::array()},
+           {"trials", Json::array()}};
+  if (!exhibit_.differs.empty()) json_["differs"] = exhibit_.differs;
+  for (const std::string& config : exhibit_.runs) attempt(config, [&] { take_run(config); });
+  for (const std::string& config : exhibit_.lights) attempt(config, [&] { take_lights(config); });
+  if (!exhibit_.figure.empty()) attempt(exhibit_.figure, [&] { take_figure(); });
+  if (exhibit_.code_size) attempt("code size", [&] { take_code_size(); });
+  attempt("sheet", [&] { add_sheet(sheets); });
+  json_["wall_s"] = watch.seconds();
+  return json_;
+}
+
+}  // namespace
+
+Json reproduce_exhibit(const Exhibit& exhibit, const std::vector<PaperClaim>& claims, PapersWork* work,
+                       const std::string& scale, const fs::path& sheets) {
+  return ExhibitWork(exhibit, claims, work, scale).measure(sheets);
+}
+
+std::vector<Trial> trials_in(const Json& papers) {
+  std::vector<Trial> out;
+  for (const Json& exhibit : papers.at("exhibits")) {
+    for (const Json& trial : exhibit.at("trials")) out.push_back(trial_from_json(trial));
+  }
+  return out;
+}
+
+Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& all) {
+  Json out = fresh;
+  out["exhibits"] = Json::array();
+  for (const Exhibit& exhibit : all) {
+    for (const Json* source : {&fresh, &earlier}) {
+      const Json exhibits = source->value("exhibits", Json::array());
+      const auto at = std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == exhibit.name; });
+      if (at == exhibits.end()) continue;
+      out["exhibits"].push_back(*at);
+      break;
+    }
+  }
+  return out;
+}
+
+// --- flips ---
+
+std::vector<Flip> flips(const Json& before, const Json& after) {
+  using Key = std::array<std::string, 5>;
+  const auto by_key = [](const Json& papers) {
+    std::map<Key, Trial> out;
+    for (const Json& exhibit : papers.at("exhibits")) {
+      for (const Json& json : exhibit.at("trials")) {
+        const Trial t = trial_from_json(json);
+        out[{t.exhibit, exhibit.at("scale"), t.claim, t.place, t.metric}] = t;
+      }
+    }
+    return out;
+  };
+  const auto certain = [](Ruling r) { return r != Ruling::undecided && r != Ruling::not_run; };
+  const std::map<Key, Trial> old = by_key(before);
+  std::vector<Flip> out;
+  for (const auto& [key, t] : by_key(after)) {
+    const auto at = old.find(key);
+    if (at == old.end() || at->second.ruling == t.ruling) continue;
+    out.push_back({at->second, t, certain(at->second.ruling) && certain(t.ruling)});
+  }
+  return out;
+}
+
+std::string flip_text(const Flip& flip) {
+  const auto number = [](const Trial& t) {
+    if (!t.ratio) return t.figures;
+    if (!t.ci95) return fmt::format("{:.3g}", *t.ratio);
+    return fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi);
+  };
+  const std::string what = flip.before.ruling == Ruling::holds ? "no longer holds"
+                           : flip.after.ruling == Ruling::holds ? "now holds"
+                                                                : std::string(name(flip.after.ruling));
+  return fmt::format("{}: {}: {} ({}, {}, {}; was {}: {}, is {}: {})", flip.after.source, what, flip.after.text,
+                     flip.after.exhibit, flip.after.place, flip.after.metric, name(flip.before.ruling),
+                     number(flip.before), name(flip.after.ruling), number(flip.after));
+}
+
+}  // namespace vsglbench

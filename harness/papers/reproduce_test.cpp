@@ -1,0 +1,101 @@
+// An exhibit made from nothing to its page, small.
+#include "papers/reproduce.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/png.h"
+
+using namespace vsglbench;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Reproduce : public ::testing::Test {
+ protected:
+  Reproduce() {
+    static int serial = 0;
+    folder_ = fs::temp_directory_path() / fmt::format("vsglbench-papers-{}-{}", ::getpid(), serial++);
+    fs::create_directories(folder_);
+    write_text(folder_ / "tiny.json", R"({
+      "name": "tiny", "scenes": ["cornell"],
+      "methods": [{"method": "fis"}, {"method": "mfis"}, {"method": "vpl"}],
+      "frame": {"width": 400, "height": 400}, "rsm": 64, "N": 16, "importance_lights": 16, "visibility": "none",
+      "seeds": 3, "reference": {"samples": 16}, "timing": {"min_samples": 2, "max_samples": 2, "warmup": 0},
+      "scales": {"quick": {"frame": {"width": 40, "height": 30}}}})");
+    exhibit_.name = "tiny-fig";
+    exhibit_.source = "[P Fig. 1]";
+    exhibit_.title = "Tiny";
+    exhibit_.runs = {(folder_ / "tiny.json").string()};
+    exhibit_.columns = {"rmse"};
+    exhibit_.claims = {"mfis-costs-nothing"};
+    exhibit_.table = {{"FIS", "GTX", "*/fis/*", "*",
+                       {{"Generation", "1.0", {"generate.*"}, false}, {"Shade", "2.0", {"shade"}, false}}}};
+    exhibit_.sheet = {{exhibit_.runs[0], "*", {"reference", "indirect", "error"}, {}}};
+  }
+  ~Reproduce() override { fs::remove_all(folder_); }
+  WorkOptions options() const {
+    WorkOptions o;
+    o.scale = "quick";
+    o.out = folder_ / "out";
+    return o;
+  }
+  Json make(WorkOptions o) const {
+    PapersWork work(std::move(o));
+    return reproduce_exhibit(exhibit_, load_claims(), &work, "quick", folder_);
+  }
+  fs::path folder_;
+  Exhibit exhibit_;
+};
+
+TEST_F(Reproduce, GoesFromConfigToPage) {
+  Json made = make(options());
+  ASSERT_TRUE(made.at("problems").empty()) << made.at("problems").dump();
+  ASSERT_EQ(made.at("tables").size(), 1u);
+  EXPECT_GT(made["tables"][0]["rows"][0]["value"].get<double>(), 0);
+  ASSERT_EQ(made.at("trials").size(), 1u);
+  EXPECT_NE(made["trials"][0]["ruling"], "not run") << made["trials"].dump();
+  const Bitmap sheet = read_png(folder_ / "tiny-fig.png");
+  EXPECT_GT(sheet.width, 4u * 400);  // a reference and three cases
+  const Json papers = {{"device", made["device"]}, {"host", made["host"]}, {"exhibits", {made}}};
+  const std::string page = papers_page(papers);
+  EXPECT_NE(page.find("| FIS | Generation | 1.0 |"), std::string::npos) << page;
+  EXPECT_NE(page.find("mfis-costs-nothing"), std::string::npos);
+}
+
+TEST_F(Reproduce, WhatIsFinishedStands) {
+  const Json first = make(options()), second = make(options());
+  EXPECT_EQ(first["measured"], second["measured"]);
+  EXPECT_EQ(first["trials"], second["trials"]);
+  WorkOptions anew = options();
+  anew.force = true;
+  EXPECT_NE(make(anew)["tables"], first["tables"]);  // times of other frames
+  WorkOptions as_is = options();
+  as_is.as_is = true;
+  as_is.out = folder_ / "nowhere";
+  EXPECT_FALSE(make(as_is)["problems"].empty());
+}
+
+TEST_F(Reproduce, WhatFailsCostsItself) {
+  exhibit_.runs.insert(exhibit_.runs.begin(), (folder_ / "absent.json").string());
+  exhibit_.claims.push_back("lights-reduce-blur");
+  const Json made = make(options());
+  ASSERT_EQ(made.at("problems").size(), 1u) << made.at("problems").dump();
+  EXPECT_NE(made["problems"][0].get<std::string>().find("absent.json"), std::string::npos);
+  EXPECT_EQ(made.at("tables").size(), 1u);
+  // A claim that this run can't tell is named as not run.
+  EXPECT_EQ(made["trials"].back()["ruling"], "not run");
+}
+
+TEST_F(Reproduce, AScaleThatTheConfigLacksIsAProblemOfItsOwn) {
+  WorkOptions o = options();
+  o.scale = "huge";
+  const Json made = make(o);
+  ASSERT_EQ(made.at("problems").size(), 2u) << made.at("problems").dump();  // and there is no picture
+  EXPECT_NE(made["problems"][0].get<std::string>().find("it has quick"), std::string::npos);
+}
+
+}  // namespace
