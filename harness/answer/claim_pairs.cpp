@@ -46,7 +46,19 @@ bool has_what_differs(const CaseResult& c, const PaperClaim& claim) {
 
 // --- what a pair shows ---
 
+// Of how the seed's lights lie on the RSM; nothing where the method does not say.
+template <class Part>
+std::optional<double> part_value(const std::optional<Part>& part, double Part::*value) {
+  return part ? std::optional((*part).*value) : std::nullopt;
+}
+
 std::optional<double> seed_value(const SeedResult& s, const std::string& metric) {
+  if (metric == "overlap") return part_value(s.coverage, &Coverage::overlap);
+  if (metric == "gap") return part_value(s.coverage, &Coverage::gap);
+  if (metric == "pdf_overlap") return s.coverage ? s.coverage->pdf_overlap : std::nullopt;
+  if (metric == "pdf_gap") return s.coverage ? s.coverage->pdf_gap : std::nullopt;
+  if (metric == "kernel_largest") return part_value(s.kernels, &KernelStats::largest);
+  if (metric == "kernel_over") return part_value(s.kernels, &KernelStats::over);
   if (metric == "flip_p99") return s.errors.flip_p99;
   if (metric == "p99_9") return s.errors.p99_9;
   for (const Metric m : kMetrics) {

@@ -89,6 +89,37 @@ TEST(Claims, IsUndecidedWhereSeedsDoNotTell) {
   EXPECT_EQ(only_row(r.report, claim_of({{"method", "a"}}, {{"method", "b"}})).ruling, Ruling::undecided);
 }
 
+// Seeds that lack it, or have none of it, are not compared.
+TEST(Claims, HowTheLightsLieIsComparedSeedBySeed) {
+  MadeReport r(1, 0, 0);
+  r.add(made("a", 64, 10));
+  r.add(made("b", 64, 10));
+  const std::map<std::string, double> wanted = {{"overlap", 0.5},          {"gap", 0.25},
+                                                {"pdf_overlap", 0.75},     {"pdf_gap", 0.2},
+                                                {"kernel_largest", 0.125}, {"kernel_over", 0.1}};
+  for (size_t s = 0; s < 8; ++s) {
+    const double all = 0.01 * static_cast<double>(1 + s);  // what seeds differ in
+    SeedResult &a = r.report.cases[0].seeds[s], &b = r.report.cases[1].seeds[s];
+    b.coverage = Coverage{all, all, all, all};
+    b.kernels = KernelStats{.largest = all, .over = s == 3 ? 0 : all};
+    a.coverage = Coverage{0.5 * all, 0.25 * all, 0.75 * all, 0.2 * all};
+    a.kernels = KernelStats{.largest = 0.125 * all, .over = 0.1 * all};
+  }
+  for (const auto& [metric, ratio] : wanted) {
+    PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+    claim.metrics = {metric};
+    const ClaimRow row = only_row(r.report, claim);
+    EXPECT_EQ(row.ruling, Ruling::holds) << metric;
+    EXPECT_NEAR(row.ratio, ratio, 1e-9) << metric;
+  }
+  for (SeedResult& s : r.report.cases[1].seeds) s.kernels.reset(), s.coverage->pdf_gap.reset();
+  for (const char* metric : {"kernel_largest", "pdf_gap"}) {
+    PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+    claim.metrics = {metric};
+    EXPECT_EQ(only_row(r.report, claim).why, fmt::format("{} was not measured for two seeds", metric));
+  }
+}
+
 TEST(Claims, SaysWhatWasNotRun) {
   MadeReport r(1, 0, 0.1);
   r.add(made("a", 64, 10));

@@ -17,8 +17,8 @@ std::string number(const std::optional<double>& value) { return value ? fmt::for
 int print(const std::vector<LightsResult>& results) {
   size_t width = 4;
   for (const LightsResult& r : results) width = std::max(width, r.id.size());
-  fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}\n", "case", width, "lights", "overlap", "gap",
-             "overlap_p", "gap_p");
+  fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}  {:>9}\n", "case", width, "lights", "overlap", "gap",
+             "overlap_p", "gap_p", "largest");
   std::set<std::string> told;  // reasons that cases share, such as an absent asset
   for (const LightsResult& r : results) {
     if (r.status != Status::ok) {
@@ -27,9 +27,10 @@ int print(const std::vector<LightsResult>& results) {
       continue;
     }
     const auto& c = r.coverage;
-    fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}\n", r.id, width, r.lights - r.empty,
+    fmt::print("{:<{}}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}  {:>9}\n", r.id, width, r.lights - r.empty,
                c ? number(c->overlap) : "-", c ? number(c->gap) : "-",
-               number(c ? c->pdf_overlap : std::nullopt), number(c ? c->pdf_gap : std::nullopt));
+               number(c ? c->pdf_overlap : std::nullopt), number(c ? c->pdf_gap : std::nullopt),
+               r.kernels ? number(r.kernels->largest) : "-");
   }
   const auto all = [&](Status s) {
     return std::all_of(results.begin(), results.end(), [&](const auto& r) { return r.status == s; });
@@ -65,10 +66,18 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
       "            geometric_normal, brdf (diffuse, f0, ndf with alpha or exponent), radius (m), clamp "
       "(1/m2)\n"
       "  footprint x, y, side in texels of the RSM, where the method has square footprints\n"
+      "  mass      what that footprint holds of the PDF, as a multiple of 1/N: 1 is as intended [MFIS16 Eq. "
+      "2]\n"
       "coverage: of c, how often lights hold a texel by the weights of their filters' taps, overlap is the "
       "mean of\n"
-      "max(c - 1, 0), gap of max(1 - c, 0); pdf_overlap and pdf_gap the same weighted by the PDF.\n"
-      "A config with \"measure\": \"generation\" gives all methods one PDF, any other each its own.\n"
+      "max(c - 1, 0), gap of max(1 - c, 0); pdf_overlap and pdf_gap the same weighted by the PDF; "
+      "kernel_largest is\n"
+      "the largest mass (in the printed table largest), kernel_over the share of footprints whose mass is "
+      "above "
+      "4.\n"
+      "A config with \"measure\": \"generation\" gives all methods the PDF that its key pdf names, any other "
+      "each "
+      "its own.\n"
       "Exit codes: 0 all drawn or skipped (scene not downloaded), 1 a case failed, 2 bad usage, config, "
       "plugin or\n"
       "output, or all skipped, 3 no usable device.\n"

@@ -32,6 +32,8 @@ struct FrameParameters {
   Shading shading;           // of VSGLs
   float bias_reduction = 0;  // α of [VSGL14 §3.3], of VSGLs; 0: none
   Importance importance = Importance::own;
+  // Of generation alone, in place of `importance`: read by who makes the PDFs (run/pdf_source.h).
+  std::string pdf = "mfis";
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
   uint32_t progressive = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -42,7 +43,7 @@ class Counts {
 
 // A texel of a level, on one axis: the base texels [from, to) of its block, and its weight.
 struct Tap {
-  uint32_t from, to;
+  uint32_t texel, from, to;
   double weight;
 };
 
@@ -56,21 +57,63 @@ std::array<Tap, 2> taps(uint32_t base, uint32_t level, double position) {
   double f = centre - lower;
   if (part < 0.5) f *= 2 * part / ((0.5 + part) * (0.5 + part));
   const auto tap = [&](uint32_t texel, double weight) {
-    return Tap{texel * block, std::min(base, (texel + 1) * block), weight};
+    return Tap{texel, texel * block, std::min(base, (texel + 1) * block), weight};
   };
   return {tap(lower, 1 - f), tap(upper, f)};
 }
 
-// The mean over a texel's block counts `times` times in all: each of its base texels, times over their
-// number.
-void add_level(Counts* counts, const glm::vec4& footprint, uint32_t level, double times, glm::uvec2 size) {
-  for (const Tap& y : taps(size.y, level, footprint.y)) {
-    for (const Tap& x : taps(size.x, level, footprint.x)) {
-      const double texels = double(x.to - x.from) * (y.to - y.from);
-      counts->add({x.from, y.from}, {x.to, y.to}, times * x.weight * y.weight / texels);
+uint32_t top_level(uint32_t width, uint32_t height) {
+  uint32_t top = 0;
+  while ((uint64_t{1} << top) < std::max(width, height)) ++top;
+  return top;
+}
+
+// What a footprint reads of an image: each(level, x, y, weight) for the texels of its two levels, whose
+// blocks' base texels weigh `weight` each. In all that is 4^l, l being its level.
+template <class Each>
+void each_tap(const glm::vec4& footprint, uint32_t width, uint32_t height, const Each& each) {
+  if (!(footprint.z > 0)) return;
+  const uint32_t top = top_level(width, height);
+  const double level = std::clamp(std::log2(double(footprint.z)), 0.0, double(top)),
+               area = std::exp2(2 * level);
+  const auto lower = static_cast<uint32_t>(level);
+  const std::pair<uint32_t, double> parts[] = {{lower, area * (1 - (level - lower))},
+                                               {std::min(lower + 1, top), area * (level - lower)}};
+  for (const auto& [l, times] : parts) {
+    for (const Tap& y : taps(height, l, footprint.y)) {
+      for (const Tap& x : taps(width, l, footprint.x)) {
+        const double texels = double(x.to - x.from) * (y.to - y.from);
+        each(l, x, y, times * x.weight * y.weight / texels);
+      }
     }
   }
 }
+
+// The PDF's sums over the blocks of every level: each adds up four of the level below.
+class BlockSums {
+ public:
+  BlockSums(uint32_t width, uint32_t height, const std::vector<float>& pdf) : width_(width) {
+    levels_.emplace_back(pdf.begin(), pdf.end());
+    for (uint32_t level = 1; level <= top_level(width, height); ++level) {
+      const uint32_t below_w = size(width, level - 1), below_h = size(height, level - 1);
+      std::vector<double> sums(size_t(size(width, level)) * size(height, level), 0);
+      for (uint32_t y = 0; y < below_h; ++y) {
+        for (uint32_t x = 0; x < below_w; ++x)
+          sums[size_t(y / 2) * size(width, level) + x / 2] += levels_.back()[size_t(y) * below_w + x];
+      }
+      levels_.push_back(std::move(sums));
+    }
+  }
+  double at(uint32_t level, uint32_t x, uint32_t y) const {
+    return levels_[level][size_t(y) * size(width_, level) + x];
+  }
+  double all() const { return levels_.back().front(); }
+
+ private:
+  static uint32_t size(uint32_t base, uint32_t level) { return (base + (1u << level) - 1) >> level; }
+  uint32_t width_;
+  std::vector<std::vector<double>> levels_;
+};
 
 struct Integrals {
   double all = 0, overlap = 0, gap = 0;
@@ -132,16 +175,11 @@ RsmShapes read_shapes(const LightShapes& shapes, uint32_t lights, uint64_t texel
 
 Coverage cover_footprints(const std::vector<glm::vec4>& footprints, uint32_t width, uint32_t height,
                           const std::vector<float>& pdf) {
-  uint32_t top = 0;
-  while ((uint64_t{1} << top) < std::max(width, height)) ++top;
   Counts counts(width, height);
   for (const glm::vec4& footprint : footprints) {
-    if (!(footprint.z > 0)) continue;
-    const double level = std::clamp(std::log2(double(footprint.z)), 0.0, double(top)),
-                 area = std::exp2(2 * level);
-    const auto lower = static_cast<uint32_t>(level);
-    add_level(&counts, footprint, lower, area * (1 - (level - lower)), {width, height});
-    add_level(&counts, footprint, std::min(lower + 1, top), area * (level - lower), {width, height});
+    each_tap(footprint, width, height, [&](uint32_t, const Tap& x, const Tap& y, double weight) {
+      counts.add({x.from, y.from}, {x.to, y.to}, weight);
+    });
   }
   Integrals all, weighted;
   const std::vector<double> count = counts.texels();
@@ -150,6 +188,48 @@ Coverage cover_footprints(const std::vector<glm::vec4>& footprints, uint32_t wid
     if (!pdf.empty()) weighted.add(pdf[i], count[i]);
   }
   return means(all, weighted);
+}
+
+std::vector<double> kernel_masses(const std::vector<glm::vec4>& footprints, uint32_t width, uint32_t height,
+                                  const std::vector<float>& pdf) {
+  if (pdf.empty()) return {};
+  const BlockSums sums(width, height, pdf);
+  if (!(sums.all() > 0)) return {};
+  std::vector<double> masses;
+  for (const glm::vec4& footprint : footprints) {
+    double held = 0;
+    each_tap(footprint, width, height, [&](uint32_t level, const Tap& x, const Tap& y, double weight) {
+      held += weight * sums.at(level, x.texel, y.texel);
+    });
+    masses.push_back(double(footprints.size()) * held / sums.all());
+  }
+  return masses;
+}
+
+std::optional<KernelStats> kernel_stats(const std::vector<glm::vec4>& footprints,
+                                        const std::vector<double>& masses) {
+  KernelStats stats;
+  size_t kernels = 0, powered = 0;
+  for (size_t i = 0; i < masses.size(); ++i) {
+    if (!(footprints[i].z > 0)) continue;
+    ++kernels;
+    stats.largest = std::max(stats.largest, masses[i]);
+    stats.mean += masses[i];
+    stats.over += masses[i] > kTooLargeKernel;
+    if (!(masses[i] > 0)) continue;  // one that holds nothing is not drawn by this PDF
+    ++powered;
+    stats.spread += std::abs(std::log2(masses[i]));
+  }
+  if (kernels == 0) return std::nullopt;
+  stats.mean /= double(kernels);
+  stats.over /= double(kernels);
+  if (powered > 0) stats.spread /= double(powered);
+  return stats;
+}
+
+std::optional<KernelStats> kernels_of(const RsmShapes& shapes, uint32_t width, uint32_t height,
+                                      const std::vector<float>& pdf) {
+  return kernel_stats(shapes.squares, kernel_masses(shapes.squares, width, height, pdf));
 }
 
 Coverage cover_clusters(const std::vector<uint32_t>& clusters, uint32_t lights,

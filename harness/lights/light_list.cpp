@@ -78,6 +78,7 @@ std::string column_of(const std::string& pointer) {
 
 Json light_list(const LightSet& set, const glm::dvec3& origin) {
   Json list = Json::array();
+  const auto masses = kernel_masses(set.shapes.squares, set.rsm, set.rsm, set.pdf);
   set.lights.each([&](size_t i, const auto& record) {
     if (!(record.power > 0)) return;
     Json light = {{"index", i}};
@@ -86,6 +87,7 @@ Json light_list(const LightSet& set, const glm::dvec3& origin) {
       const glm::vec4& s = set.shapes.squares[i];
       light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
     }
+    if (i < masses.size()) light["mass"] = masses[i];
     list.push_back(std::move(light));
   });
   return list;

@@ -31,7 +31,9 @@ struct LightSet {
 //             (unit, towards the primary light), normal, geometric_normal, brdf: diffuse and f0 (RGB), ndf
 //             ("ggx" with alpha, "phong" with exponent, "none"); radius (m, of a VSL); clamp (1/m², where
 //             set)
-//   both      footprint: x, y (centre) and side in texels of the RSM, for methods that have square footprints
+//   both      footprint: x, y (centre) and side in texels of the RSM, for methods that have square
+//   footprints;
+//             mass: what it holds of the PDF, as kernel_masses(), where there is one
 Json light_list(const LightSet& lights, const glm::dvec3& origin);
 
 // The same as a table, a row a light: nested keys are joined by dots, "diffuse.axis.0".

@@ -65,6 +65,16 @@ TEST(LightList, VsglInWorldCoordinates) {
   EXPECT_EQ(static_cast<float>(l.at("footprint").at("side").get<double>()), 11.3f);
 }
 
+// Of two lights, the second's square is the texel that has three quarters of the PDF.
+TEST(LightList, FootprintsHaveTheirMass) {
+  LightSet set = two_vsgls();
+  set.shapes.squares[1] = {1.5f, 0.5f, 1, 0};
+  set.rsm = 2;
+  EXPECT_FALSE(light_list(set, {})[0].contains("mass"));
+  set.pdf = {0.25f, 3, 0.25f, 0.5f};
+  EXPECT_DOUBLE_EQ(light_list(set, {})[0].at("mass").get<double>(), 1.5);
+}
+
 TEST(LightList, VplsHaveTheirBrdf) {
   LightSet set;
   std::vector vsls = {vpl(), vpl()};

@@ -15,6 +15,7 @@
 #include "measure/statistics.h"
 #include "measure/stopping.h"
 #include "measure/verdict.h"
+#include "report/coverage.h"
 
 namespace vsglbench {
 
@@ -189,6 +190,10 @@ struct SeedResult {
   uint64_t seed = 0;
   Errors errors;
   std::optional<double> flux;  // as FluxResult, of this seed's lights
+  // Of them, over the PDF that they were drawn by. Absent where the method defines no shapes, or no kernels,
+  // and in reports of old.
+  std::optional<Coverage> coverage;
+  std::optional<KernelStats> kernels;
 };
 
 // How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
@@ -345,8 +350,8 @@ const Json& report_schema();
 Json to_json(const Report& report);
 Report report_from_json(const Json& json);  // `json` obeys the schema
 
-// A part of a report as JSON and back, for a process to tell another. T: AaPair, CaseResult, DeviceReport,
-// SceneReport, TimeNoise or WallTime.
+// A part of a report as JSON and back, for a process to tell another. T: AaPair, CaseResult, Coverage,
+// DeviceReport, KernelStats, SceneReport, TimeNoise or WallTime.
 template <class T>
 Json part_to_json(const T& part);
 template <class T>

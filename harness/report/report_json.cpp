@@ -196,6 +196,20 @@ void fields(auto& a, Is<Accuracy> auto& v) {
   a("below_floor", v.below_floor);
 }
 
+void fields(auto& a, Is<Coverage> auto& v) {
+  a("overlap", v.overlap);
+  a("gap", v.gap);
+  a("pdf_overlap", v.pdf_overlap);
+  a("pdf_gap", v.pdf_gap);
+}
+
+void fields(auto& a, Is<KernelStats> auto& v) {
+  a("largest", v.largest);
+  a("mean", v.mean);
+  a("over", v.over);
+  a("spread", v.spread);
+}
+
 void fields(auto& a, Is<SeedResult> auto& v) {
   a("seed", v.seed);
   a("smape", v.errors.smape);
@@ -208,6 +222,8 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("flip_p99", v.errors.flip_p99);
   a("p99_9", v.errors.p99_9);
   a("flux", v.flux);
+  a("coverage", v.coverage);
+  a("kernels", v.kernels);
 }
 
 void fields(auto& a, Is<FlickerSeries> auto& v) {
@@ -384,7 +400,9 @@ T part_from_json(const Json& json) {
   template T part_from_json(const Json&);
 VSGLBENCH_PART(AaPair)
 VSGLBENCH_PART(CaseResult)
+VSGLBENCH_PART(Coverage)
 VSGLBENCH_PART(DeviceReport)
+VSGLBENCH_PART(KernelStats)
 VSGLBENCH_PART(SceneReport)
 VSGLBENCH_PART(TimeNoise)
 VSGLBENCH_PART(WallTime)

@@ -117,7 +117,8 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
-    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux"})
+    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux",
+                            "coverage", "coverage/pdf_overlap", "coverage/pdf_gap", "kernels"})
       expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
   }
   for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {
@@ -159,6 +160,8 @@ TEST(ReportSchema, UnknownFieldsAreRefused) {
                              "/cases/0/accuracy/bias",
                              "/cases/0/accuracy/reference",
                              "/cases/0/seeds/2",
+                             "/cases/0/seeds/2/coverage",
+                             "/cases/0/seeds/2/kernels",
                              "/cases/0/health",
                              "/cases/1/error",
                              "/cases/0/temporal",
@@ -250,6 +253,8 @@ TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
                                                  {"/cases/0/accuracy/rmse/value", -0.1},
                                                  {"/cases/0/accuracy/pixels", 0},
                                                  {"/cases/0/seeds/0/smape", "12"},
+                                                 {"/cases/0/seeds/0/coverage/gap", 1.5},
+                                                 {"/cases/0/seeds/0/kernels/over", 1.5},
                                                  {"/cases/0/stopping/reason", "bored"},
                                                  {"/cases/0/images/indirect", "/absolute.exr"}};
   for (const auto& [pointer, value] : faults) {

@@ -38,7 +38,9 @@ inline CaseResult synthetic_case(const std::string& id) {
     c.seeds.push_back({seed,
                        {12 + 0.1 * d, 0.02, 0.1, 0.3, -0.01 + 0.001 * d, 1000, 11 + 0.1 * d, 0.75,
                         0.2 + 0.01 * d, 0.5, 2.5},
-                       0.9});
+                       0.9,
+                       Coverage{0.25 + 0.01 * d, 0.125, 0.5, 0.25 + 0.01 * d},
+                       KernelStats{6 + d, 1.25, 0.0625, 0.5}});
   }
   ReferenceInfo reference{"0123abcd", 1024, 0.5,   0.001, 0.4,   0.01,   0.002,
                           0.03,       0.25, 0.125, 16,    0.002, "floor"};

@@ -29,6 +29,21 @@ std::string setting_note(const Report& report, const std::string& shared) {
   return out.starts_with(", ") ? out.substr(2) : out;
 }
 
+// On whose PDFs generation alone was timed; in reports of old always on one for all.
+std::string generation_note(const Report& report) {
+  std::set<std::string> pdfs;  // values of the key
+  for (const CaseResult& c : report.cases) {
+    const auto pdf = c.parameters.find("pdf");
+    if (pdf != c.parameters.end() && pdf->is_string()) pdfs.insert(pdf->get<std::string>());
+  }
+  const std::string maker = report.config.value("pdfs_made_by", "an unknown method");
+  const std::string start = "only generation was measured: every case of a scene on the same halves";
+  if (pdfs.size() > 1)
+    return fmt::format("{}, and on the same PDFs where `pdf` is the same: {}", start, maker);
+  if (pdfs.contains("own")) return start + ", each method on the PDFs that it makes itself";
+  return fmt::format("{} and PDFs, made by {}", start, maker);
+}
+
 std::string device_note(const Report& report) {
   const DeviceReport& d = report.device;
   return fmt::format("device: {}, {}, {}; host: {}, {} cores", d.name, d.driver_version,
@@ -66,11 +81,7 @@ std::vector<std::string> table_notes(const Report& report, const std::string& sh
     out.push_back(fmt::format("the machine was busy when the run began: load {:.2f} on {} cores",
                               *host.load_at_start, host.cores));
   }
-  if (report.config.value("measure", "") == "generation") {
-    out.push_back(fmt::format(
-        "only generation was measured: every case of a scene on the same halves and PDFs, made by {}",
-        report.config.value("pdfs_made_by", "an unknown method")));
-  }
+  if (report.config.value("measure", "") == "generation") out.push_back(generation_note(report));
   for (const SceneReport& scene : report.scenes) {
     for (const auto& note : scene.notes) out.push_back(scene.name + ": " + note);
     if (scene.clocks && !scene.clocks->throttled_by.empty())

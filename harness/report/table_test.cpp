@@ -177,6 +177,13 @@ TEST(Table, GenerationAloneIsComparedWithTheScenesFirst) {
   EXPECT_TRUE(line_of(table, "fis").ends_with(" 1"));  // another scene
   EXPECT_EQ(signs(line_of(table, "case")), signs(line_of(table, "kmeans")));
   expect_parts(table, {"PDFs, made by mfis"});
+  r.config["pdfs_made_by"] = "mfis; the power that each texel reflects";
+  r.cases[1].parameters["pdf"] = "mfis";
+  r.cases[2].parameters["pdf"] = "flux";
+  expect_parts(terminal_table(r),
+               {"on the same halves, and on the same PDFs where `pdf` is the same: mfis; the power"});
+  r.cases[1].parameters["pdf"] = r.cases[2].parameters["pdf"] = "own";
+  expect_parts(terminal_table(r), {"on the same halves, each method on the PDFs that it makes itself"});
   const auto rows = split(markdown_table(r));
   for (size_t i = 0; i < 6; ++i) EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), '|'), 6) << rows[i];
 }

@@ -14,6 +14,7 @@ std::string readers_of(const CaseKey& key) {
   if (key.scope & kMethodTakesCount) readers.push_back("methods that take a number of lights");
   if (key.scope & kMethodTakesPdf) readers.push_back("methods that draw lights");
   if (key.scope & kFrame) readers.push_back("shaded frames");
+  if (key.scope & kGeneration) readers.push_back("generation alone");
   if (key.scope & kVsgl) readers.push_back("VSGLs");
   return readers.empty() ? "every case" : fmt::format("{}", fmt::join(readers, ", "));
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "run/pdf_source.h"
 
 namespace vsglbench {
 namespace {
@@ -83,6 +84,30 @@ CaseKey choice(const Row& row, Enum FrameParameters::*field, Enum (*parse)(const
   return key;
 }
 
+CaseKey text(const Row& row, std::string FrameParameters::*field, const std::string& values) {
+  CaseKey key = key_of(row);
+  key.default_value = FrameParameters().*field;
+  key.schema = {{"type", "string"}, {"minLength", 1}};
+  key.values = values;
+  key.read = [=](const Json& value, FrameParameters* frame) {
+    if (!value.is_string() || value.get<std::string>().empty())
+      throw fail(ErrorKind::config, "{} must be a string that is not empty", value.dump());
+    frame->*field = value.get<std::string>();
+  };
+  key.write = [=](const FrameParameters& frame) { return Json(frame.*field); };
+  return key;
+}
+
+CaseKey pdf() {
+  CaseKey key = text(
+      {"pdf", kGeneration | kMethodTakesPdf, InId::where_it_differs,
+       "what the RSM's lights are drawn by, the same for all methods: the lights of one method; own, each "
+       "method's; flux, nobody's: the power that a texel reflects; or an image's luminance"},
+      &FrameParameters::pdf, "own, flux, a method, or the path of an image (.exr, .png)");
+  key.look_up = [](const FrameParameters& frame) { pdf_source(frame.pdf); };
+  return key;
+}
+
 CaseKey effects(const Row& row, EffectSet FrameParameters::*field) {
   CaseKey key = key_of(row);
   key.default_value = "";
@@ -153,6 +178,7 @@ std::vector<CaseKey> table() {
            "vpl, as the first BRSM had it [VSGL14 Fig. 4a]; flux, nobody's: the power that a texel "
            "reflects"},
           &P::importance, parse_importance, importance_names()),
+      pdf(),
       count({"progressive", kFrame, kIfDifferent,
              "images of so many light sets are averaged, the lights' radius × 2/3 from one to the next "
              "[VSGL14 §5]"},

@@ -20,6 +20,7 @@ enum KeyScope : unsigned {
   kMethodTakesPdf = 2,    // the method draws its lights by a PDF
   kFrame = 4,             // frames are shaded; not generation alone
   kVsgl = 8,              // lights are VSGLs, not VPLs, which have exact BRDFs
+  kGeneration = 16,       // generation alone is measured; not frames
 };
 
 enum class InId { always, where_it_differs };
@@ -35,6 +36,9 @@ struct CaseKey {
   // Puts a value into its field. Throws Error(config) that says what is wrong with it, but not where it
   // stands.
   std::function<void(const Json& value, FrameParameters* frame)> read;
+  // What neither schema nor read() can tell: whether what a value names exists. Throws likewise; null:
+  // nothing to tell.
+  std::function<void(const FrameParameters& frame)> look_up;
   std::function<Json(const FrameParameters& frame)> write;
   std::string name_in_id;
 };

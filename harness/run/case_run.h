@@ -112,7 +112,8 @@ class CaseRun {
   double check_flux();
   void check_passes();
   void record(const FrameTimes& times, double elapsed_s);
-  void describe_lights();
+  SeedResult seed_of(uint32_t seed) const;
+  void describe_lights(const std::optional<Coverage>& coverage);
   void describe_shading();
 
   Case case_;

@@ -8,9 +8,10 @@
 #include "base/nearest.h"
 #include "base/percent.h"
 #include "run/case_keys.h"
+#include "run/method_keys.h"
 #include "run/overrides.h"
+#include "run/pdf_source.h"
 #include "run/preset.h"
-#include "run/scene_pdfs.h"
 #include "scene/scene_file.h"
 
 namespace fs = std::filesystem;
@@ -173,9 +174,15 @@ void read_motion(const JsonDocument& doc, Config* config) {
   motion.seeds = doc.root().at("motion").value("seeds", motion.seeds);
 }
 
-// What only an image is judged with is refused where there is none.
+// What only an image is judged with is refused where there is none, and what stands in for it where there is.
 Measure read_measure(const JsonDocument& doc) {
-  if (doc.root().value("measure", "frame") == "frame") return Measure::frame;
+  if (doc.root().value("measure", "frame") == "frame") {
+    for (const CaseKey& key : case_keys()) {
+      if ((key.scope & kGeneration) && doc.root().contains(key.name))
+        throw doc.error("/" + key.name, unread_in_frames(key.name));
+    }
+    return Measure::frame;
+  }
   std::vector<std::string> unread = {"seeds", "reference", "ism", "motion", "price_effects"};
   for (const CaseKey& key : case_keys()) {
     if (key.scope & kFrame) unread.push_back(key.name);
@@ -187,8 +194,18 @@ Measure read_measure(const JsonDocument& doc) {
   return Measure::generation;
 }
 
+// An image that is damaged is found now, not after an hour of measuring other cases.
+Json read_pdfs(const JsonDocument& doc, const std::vector<Case>& cases) {
+  try {
+    return describe_pdfs(cases);
+  } catch (const Error& e) {
+    throw doc.error("/pdf", e.what());
+  }
+}
+
+// `pdfs`: what read_pdfs() says, of generation alone.
 Json resolved_settings(const Config& config, const FrameParameters& base, const Json& root,
-                       const Json& preset) {
+                       const Json& preset, const Json& pdfs) {
   const bool generation = config.measure == Measure::generation;
   Json out = {{"name", config.name},
               {"description", config.description},
@@ -198,7 +215,7 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
               {"frame", {{"width", base.width}, {"height", base.height}}}};
   if (root.contains("preset")) out["preset"] = root.at("preset");
   for (const CaseKey& key : case_keys()) {
-    if (!(key.scope & kFrame) || !generation)
+    if (!(key.scope & (generation ? kFrame : kGeneration)))
       out[key.name] = root.value(key.name, preset.value(key.name, key.default_value));
   }
   if (!generation) {
@@ -218,7 +235,7 @@ Json resolved_settings(const Config& config, const FrameParameters& base, const 
     out["motion"] = {{"seeds", config.motion->seeds}};
     if (config.motion->frames > 0) out["motion"]["frames"] = config.motion->frames;
   }
-  if (generation) out["pdfs_made_by"] = ScenePdfs::maker().name;
+  if (generation) out.update(pdfs);
   out["time_limit_s"] = config.time_limit_s;
   out["timing"] = {{"warmup", config.warmup},
                    {"min_samples", config.timing.min_samples},
@@ -271,7 +288,8 @@ Config load_config(const fs::path& path, const Overrides& overrides, const std::
   const FrameParameters base = base_parameters(root, preset);
   config.cases = expand_cases(doc, root, overrides, base);
   check_read(overrides, config.cases);
-  config.resolved = resolved_settings(config, base, root, preset);
+  const Json pdfs = config.measure == Measure::generation ? read_pdfs(doc, config.cases) : Json::object();
+  config.resolved = resolved_settings(config, base, root, preset, pdfs);
   if (!scale.empty()) config.resolved["scale"] = scale;
   if (!overrides.empty()) config.resolved["set"] = overrides;
   return config;

@@ -1,6 +1,9 @@
 // Runs in which only the generation of the lights is measured.
 #include <algorithm>
+#include <map>
+#include <set>
 
+#include "image/exr.h"
 #include "report/table.h"
 #include "run/run_fixture.h"
 #include "run/runner.h"
@@ -86,6 +89,39 @@ TEST_F(GenerationTest, SizesDoNotDisturbEachOther) {
     EXPECT_EQ(one.cases.at(0).generate->empty, c.generate->empty) << c.id;
     EXPECT_EQ(one.cases.at(0).generate->dispatches, c.generate->dispatches) << c.id;
   }
+}
+
+// By the key `pdf`, cases of one scene are timed in the same run on PDFs of several makers, and each has the
+// lights that it has alone.
+TEST_F(GenerationTest, PdfsDoNotDisturbEachOther) {
+  Image corner(8, 8);
+  for (uint32_t i = 0; i < 16; ++i) corner.at(i % 4, i / 4) = glm::vec3(1);
+  const std::string image = (folder_ / "corner.exr").string();
+  write_exr(image, corner);
+  config_["methods"] = {{{"method", "mfis"}}, {{"method", "kmeans2d"}}};
+  config_["pdf"] = {"mfis", "vpl", "own", "flux", image};
+  EXPECT_EQ(run().exit_code, 0);
+  expect_sound(out_ / "report.json");
+  const Report all = read_report(out_ / "report.json");
+  ASSERT_EQ(all.cases.size(), 10u);
+  EXPECT_TRUE(contains(terminal_table(all), "on the same PDFs where `pdf` is the same: mfis; vpl; "));
+  std::map<std::string, double> overlaps;  // of mfis, by its PDF
+  for (const CaseResult& c : all.cases) {
+    ASSERT_EQ(c.status, Status::ok) << c.id << c.error->message;
+    const std::string pdf = c.parameters.at("pdf");
+    if (c.method == "mfis") overlaps[pdf] = *c.generate->overlap;
+    config_["pdf"] = pdf;
+    config_["methods"] = {{{"method", c.method}}};
+    run();
+    const Report one = read_report(out_ / "report.json");
+    EXPECT_EQ(one.cases.at(0).generate->overlap, c.generate->overlap) << c.id;
+    EXPECT_EQ(one.cases.at(0).generate->gap, c.generate->gap) << c.id;
+    EXPECT_EQ(one.cases.at(0).generate->empty, c.generate->empty) << c.id;
+  }
+  EXPECT_EQ(overlaps.at("own"), overlaps.at("mfis")) << "its own is the one that mfis makes";
+  std::set<double> different;
+  for (const auto& [pdf, overlap] : overlaps) different.insert(overlap);
+  EXPECT_EQ(different.size(), 4u) << "a PDF is not what it should be: two of them draw the same lights";
 }
 
 TEST_F(GenerationTest, ImpossibleCasesFailAlone) {

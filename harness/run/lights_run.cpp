@@ -40,9 +40,11 @@ CameraView camera_view_of(Frame& frame, const Scene& scene) {
           download_map(frame.gbuffer().maps[0]), download_map(frame.gbuffer().maps[1])};
 }
 
-Json to_json(const Coverage& c) {
-  Json json = {{"overlap", c.overlap}, {"gap", c.gap}};
-  if (c.pdf_gap) json.update({{"pdf_overlap", *c.pdf_overlap}, {"pdf_gap", *c.pdf_gap}});
+// Of a case's list of lights: as columns of coverage.csv.
+Json coverage_json(const LightsResult& result) {
+  Json json = part_to_json(*result.coverage);
+  if (result.kernels)
+    json.update({{"kernel_largest", result.kernels->largest}, {"kernel_over", result.kernels->over}});
   return json;
 }
 
@@ -111,11 +113,12 @@ void LightsRun::draw(Place& place, const Case& c, LightsResult* result) {
   require_memory(device_.info(), unshaded);
   Frame frame(place.stage, load_method(c.method, device_.info()), c.method_parameters, unshaded.frame,
               nullptr);
-  const LightSet lights =
-      make_lights(frame, options_.seed, place.pdfs ? &*place.pdfs : nullptr, unshaded.frame);
+  const KeptPdfs* shared = place.pdfs && frame.uses_importance() ? &place.pdfs->get(unshaded) : nullptr;
+  const LightSet lights = make_lights(frame, options_.seed, shared, unshaded.frame.rsm);
   result->lights = lights.count();
   result->empty = lights.empty();
   result->coverage = coverage_of(lights.shapes, lights.count(), lights.rsm, lights.rsm, lights.pdf);
+  result->kernels = kernels_of(lights.shapes, lights.rsm, lights.rsm, lights.pdf);
 
   const Scene& scene = place.scene;
   result->folder = fs::path(file_name(c.scene)) / file_name(c.method) /
@@ -159,7 +162,7 @@ Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& sce
       {"kind", info_of(lights.lights.kind).name},
       {"count", result.lights},
       {"empty", result.empty}};
-  if (result.coverage) json["coverage"] = to_json(*result.coverage);
+  if (result.coverage) json["coverage"] = coverage_json(result);
   return json;
 }
 
@@ -167,13 +170,18 @@ Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& sce
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
 std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed) {
-  std::string text = "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap\n";
+  std::string text =
+      "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap,kernel_largest,kernel_over\n";
   for (const LightsResult& r : results) {
     const auto& c = r.coverage;
     const auto of = [&](double Coverage::*value) { return c ? std::optional((*c).*value) : std::nullopt; };
+    const auto kernel = [&](double KernelStats::*value) {
+      return r.kernels ? std::optional((*r.kernels).*value) : std::nullopt;
+    };
     text += csv_row(r.id, seed, name(r.status), r.lights, r.empty, cell(of(&Coverage::overlap)),
                     cell(of(&Coverage::gap)), cell(c ? c->pdf_overlap : std::nullopt),
-                    cell(c ? c->pdf_gap : std::nullopt));
+                    cell(c ? c->pdf_gap : std::nullopt), cell(kernel(&KernelStats::largest)),
+                    cell(kernel(&KernelStats::over)));
   }
   return text;
 }
@@ -199,7 +207,8 @@ Json to_json(const LightsResult& result) {
   Json json = {{"id", result.id},         {"status", static_cast<int>(result.status)},
                {"error", result.error},   {"folder", result.folder.string()},
                {"lights", result.lights}, {"empty", result.empty}};
-  if (result.coverage) json["coverage"] = to_json(*result.coverage);
+  if (result.coverage) json["coverage"] = part_to_json(*result.coverage);
+  if (result.kernels) json["kernels"] = part_to_json(*result.kernels);
   return json;
 }
 
@@ -210,23 +219,19 @@ void from_json(const Json& json, LightsResult* result) {
   result->folder = json.at("folder").get<std::string>();
   result->lights = json.at("lights");
   result->empty = json.at("empty");
-  if (!json.contains("coverage")) return;
-  const Json& c = json["coverage"];
-  result->coverage = Coverage{.overlap = c.at("overlap"), .gap = c.at("gap")};
-  if (!c.contains("pdf_gap")) return;
-  result->coverage->pdf_overlap = c.at("pdf_overlap").get<double>();
-  result->coverage->pdf_gap = c.at("pdf_gap").get<double>();
+  if (json.contains("coverage")) result->coverage = part_from_json<Coverage>(json["coverage"]);
+  if (json.contains("kernels")) result->kernels = part_from_json<KernelStats>(json["kernels"]);
 }
 
-LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters) {
+LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32_t rsm) {
   frame.render_direct();  // draws the halves
   LightSet set;
-  set.rsm = parameters.rsm;
-  const uint64_t texels = uint64_t(set.rsm) * set.rsm;
+  set.rsm = rsm;
+  const uint64_t texels = uint64_t(rsm) * rsm;
   const bool uses_pdf = frame.uses_importance();
   KeptPdfs own;
   if (uses_pdf && !shared) own = frame.prepare(seed);
-  const KeptPdfs& pdfs = uses_pdf && shared ? shared->get(parameters) : own;
+  const KeptPdfs& pdfs = shared ? *shared : own;
   frame.generate_only(seed, pdfs);
   if (const auto bad = frame.results().bad_values()) throw fail(ErrorKind::case_failed, "{}", bad->message());
   set.lights = frame.results().lights();

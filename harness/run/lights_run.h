@@ -35,6 +35,7 @@ struct LightsResult {
   std::filesystem::path folder;
   uint64_t lights = 0, empty = 0;
   std::optional<Coverage> coverage;
+  std::optional<KernelStats> kernels;
 };
 
 // As messages of the process that draws.
@@ -43,9 +44,9 @@ void from_json(const Json& json, LightsResult* result);
 
 // The lights that a frame of this seed has, of the first iteration where the case has several. With `shared`
 // they are drawn from those PDFs, as a run that measures generation alone does; else from the case's own.
-// Draws the halves; visibility and shading are left out. Throws Error(case_failed) for lights with a NaN or
-// Inf.
-LightSet make_lights(Frame& frame, uint32_t seed, ScenePdfs* shared, const FrameParameters& parameters);
+// Draws the halves, the RSM of `rsm` texels a side; visibility and shading are left out. Throws
+// Error(case_failed) for lights with a NaN or Inf.
+LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32_t rsm);
 
 // Draws and writes each case, and a row for each in coverage.csv. A case that fails, crashes or
 // hangs (Config::time_limit_s), or whose scene is not on this machine, costs itself. For a process without

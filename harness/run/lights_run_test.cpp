@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstring>
+#include <filesystem>
+#include <map>
 
 #include "base/file.h"
+#include "image/exr.h"
 #include "method/registry.h"
 #include "run/scene_pdfs.h"
 #include "scene/scene_file.h"
@@ -37,8 +42,15 @@ class LightsRunTest : public ::testing::TestWithParam<const char*> {
     const MethodInfo& info = load_method(method, device().info());
     return Frame(stage_, info, resolve_parameters(info, Json::object()), small(), nullptr);
   }
-  static Coverage coverage(Frame& f, uint32_t seed, ScenePdfs* shared) {
-    const LightSet set = make_lights(f, seed, shared, small());
+  // A case of generation alone, on the PDFs that `pdf` names.
+  static Case on_pdf(const std::string& method, const std::string& pdf) {
+    Case c{.method = method, .frame = small()};
+    c.method_parameters = resolve_parameters(find_method(method), Json::object());
+    c.frame.pdf = pdf;
+    return c;
+  }
+  static Coverage coverage(Frame& f, uint32_t seed, const KeptPdfs* shared) {
+    const LightSet set = make_lights(f, seed, shared, small().rsm);
     EXPECT_GT(set.count(), set.empty()) << "no light";
     return coverage_of(set.shapes, set.count(), set.rsm, set.rsm, set.pdf).value();
   }
@@ -56,8 +68,9 @@ TEST_P(LightsRunTest, MfisOverlapsAndLeavesLessThanFis) {
   const auto mean_misses = [&](const std::string& method) {
     Frame f = frame(method);
     double sum = 0;
+    const KeptPdfs& shared = pdfs.get(on_pdf(method, "mfis"));
     for (uint32_t seed = 0; seed < kSeeds; ++seed) {
-      const Coverage c = coverage(f, seed, &pdfs);
+      const Coverage c = coverage(f, seed, &shared);
       sum += *c.pdf_overlap + *c.pdf_gap;
     }
     return sum / kSeeds;
@@ -67,6 +80,81 @@ TEST_P(LightsRunTest, MfisOverlapsAndLeavesLessThanFis) {
   EXPECT_GT(mfis, 0.1) << "squares can't tile this well";
   RecordProperty("fis", fmt::format("{:.4f}", fis));
   RecordProperty("mfis", fmt::format("{:.4f}", mfis));
+}
+
+// [MFIS16 §3.2]: `mfis` at K = 1 solves Eq. 2 for its kernels, so that each holds 1/N of the PDF, where a
+// kernel of one texel is not too large already; those of `fis` are by the PDF at their centres alone, and
+// some hold many times what they should [MFIS16 Fig. 5].
+TEST_P(LightsRunTest, KernelsOfMfisHoldWhatTheyShould) {
+  ScenePdfs pdfs(stage_);
+  std::map<std::string, KernelStats> stats;
+  for (const char* method : {"fis", "mfis"}) {
+    Frame f = frame(method);
+    const LightSet set = make_lights(f, 0, &pdfs.get(on_pdf(method, "mfis")), small().rsm);
+    stats[method] = kernels_of(set.shapes, set.rsm, set.rsm, set.pdf).value();
+    if (method != std::string("mfis")) continue;
+    const auto masses = kernel_masses(set.shapes.squares, set.rsm, set.rsm, set.pdf);
+    size_t wide = 0;
+    for (size_t i = 0; i < masses.size(); ++i) {
+      if (!(set.shapes.squares[i].z > 1.001f)) continue;
+      ++wide;
+      EXPECT_NEAR(masses[i], 1, 0.02) << i << ", side " << set.shapes.squares[i].z;
+    }
+    EXPECT_GT(wide, set.count() / 4);
+  }
+  EXPECT_GT(stats["fis"].largest, 1.5 * stats["mfis"].largest);
+  EXPECT_GT(stats["fis"].spread, stats["mfis"].spread);
+}
+
+// An image of which one quarter is bright: the whole of the lights is drawn from there.
+TEST_P(LightsRunTest, LightsAreDrawnByAnImage) {
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("vsglbench_quarter_{}.exr", ::getpid());
+  Image quarter(6, 6);
+  for (uint32_t i = 0; i < 9; ++i) quarter.at(3 + i % 3, i / 3) = glm::vec3(0.5f);
+  write_exr(path, quarter);
+  ScenePdfs pdfs(stage_);
+  const auto half = static_cast<float>(small().rsm) / 2;
+  for (const char* method : {"mfis", "fis"}) {
+    Frame f = frame(method);
+    const LightSet set = make_lights(f, 1, &pdfs.get(on_pdf(method, path.string())), small().rsm);
+    ASSERT_EQ(set.shapes.squares.size(), small().lights);
+    for (const glm::vec4& s : set.shapes.squares) {
+      EXPECT_GE(s.z, 1) << "no light";
+      EXPECT_TRUE(s.x >= half && s.y <= half) << method << ": " << s.x << " " << s.y;
+    }
+    for (size_t i = 0; i < set.pdf.size(); ++i) {
+      const bool bright = i % set.rsm >= set.rsm / 2 && i / set.rsm < set.rsm / 2;
+      EXPECT_EQ(set.pdf[i], bright ? 1 : 0) << i;
+    }
+  }
+  std::filesystem::remove(path);
+}
+
+// By its definition: the power that each texel reflects.
+TEST_P(LightsRunTest, LightsAreDrawnByFlux) {
+  ScenePdfs pdfs(stage_);
+  Frame f = frame("mfis");
+  FrameParameters by_flux = small();
+  by_flux.importance = Importance::flux;
+  const MethodInfo& info = load_method("mfis", device().info());
+  Frame whole(stage_, info, resolve_parameters(info, Json::object()), by_flux, nullptr);
+  const LightSet set = make_lights(f, 2, &pdfs.get(on_pdf("mfis", "flux")), small().rsm);
+  whole.render(2);
+  EXPECT_EQ(set.pdf, whole.results().importance());
+  EXPECT_TRUE(set.lights == whole.results().lights());
+}
+
+// Each method's own PDF is that of its whole frame, whoever asked before.
+TEST_P(LightsRunTest, LightsAreDrawnByAMethodsOwn) {
+  ScenePdfs pdfs(stage_);
+  for (const char* method : {"vpl", "mfis", "vpl"}) {
+    Frame f = frame(method);
+    const LightSet set = make_lights(f, 0, &pdfs.get(on_pdf(method, "own")), small().rsm);
+    f.render(0);
+    EXPECT_EQ(set.pdf, f.results().importance()) << method;
+    EXPECT_TRUE(f.results().lights() == set.lights) << method;
+  }
 }
 
 // Every texel that reflects is in one cluster.
@@ -82,7 +170,7 @@ TEST_P(LightsRunTest, APartitionLeavesNothingThatThePdfWants) {
 TEST_P(LightsRunTest, LightsAreThoseOfTheFrame) {
   for (const char* method : {"mfis", "mfis-mh", "vpl", "two-vsgl"}) {
     Frame f = frame(method);
-    const LightSet set = make_lights(f, 3, nullptr, small());
+    const LightSet set = make_lights(f, 3, nullptr, small().rsm);
     f.render(3);
     EXPECT_TRUE(f.results().lights() == set.lights) << method;
     EXPECT_EQ(set.pdf, f.results().importance()) << method;

@@ -4,6 +4,11 @@
 
 namespace vsglbench {
 
+std::string unread_in_frames(const std::string& key) {
+  return fmt::format("is not read where whole frames are measured{}",
+                     key == "pdf" ? ": there `importance` says whose lights make the PDF" : "");
+}
+
 bool MethodKeys::is_own(const std::string& name) const {
   return std::ranges::any_of(method.parameters, [&](const auto& p) { return p.name == name; });
 }
@@ -25,6 +30,7 @@ std::string MethodKeys::why_unread(const CaseKey& key) const {
   if ((key.scope & kMethodTakesPdf) && !method.takes_light_count)
     return fmt::format("is not read: {} draws no lights", method.name);
   if ((key.scope & kFrame) && !shades_frames) return "is not read where only generation is measured";
+  if ((key.scope & kGeneration) && shades_frames) return unread_in_frames(key.name);
   if ((key.scope & kVsgl) && method.makes_vpls.is_object() && method.makes_vpls.empty())
     return fmt::format("is not read: {} makes VPLs, with exact BRDFs", method.name);
   return "";

@@ -8,6 +8,9 @@
 
 namespace vsglbench {
 
+// Why a key of generation alone (kGeneration) is refused in whole frames.
+std::string unread_in_frames(const std::string& key);
+
 struct MethodKeys {
   const MethodInfo& method;
   bool shades_frames;  // not generation alone

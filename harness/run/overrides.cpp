@@ -33,6 +33,7 @@ void check(const CaseKey& key, const Json& value, const std::string& setting) {
   for (const Json& each : value.is_array() ? value : Json::array({value})) {
     try {
       key.read(each, &unused);
+      if (key.look_up) key.look_up(unused);
     } catch (const Error& e) {
       throw fail(ErrorKind::config, "--set {}: {}", shown(setting), shown(e.what()));
     }
@@ -69,8 +70,12 @@ Overrides parse_overrides(const std::vector<std::string>& settings) {
 
 void apply(const Overrides& overrides, Json* root) {
   for (const auto& [name, value] : overrides.items()) {
-    if ((find_case_key(name)->scope & kFrame) && root->value("measure", "frame") != "frame")
+    const unsigned scope = find_case_key(name)->scope;
+    const bool frames = root->value("measure", "frame") == "frame";
+    if ((scope & kFrame) && !frames)
       throw fail(ErrorKind::config, "--set {}: is not read where only generation is measured", name);
+    if ((scope & kGeneration) && frames)
+      throw fail(ErrorKind::config, "--set {}: {}", name, unread_in_frames(name));
     (*root)[name] = value;
     for (Json& entry : root->at("methods")) {
       if (!has_own(entry.at("method"), name)) entry.erase(name);

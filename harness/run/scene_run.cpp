@@ -107,7 +107,7 @@ CaseInput SceneRun::input_of(CaseRun& run) {
   CaseInput input;
   if (config_.measure == Measure::generation) {
     harness_works("making the PDFs");
-    input.pdfs = &pdfs_.get(c.frame);
+    input.pdfs = &pdfs_.get(c);
     return input;
   }
   // A reference takes as long as it takes; when it brings the process down the case that asked for it is to

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -136,6 +137,7 @@ class Entry {
       try {
         FrameParameters frame;
         key.read(value, &frame);
+        if (key.look_up) key.look_up(frame);
         if (const Json written = key.write(frame); written.is_string()) value = written;
       } catch (const Error& e) {
         throw doc_.error(at, e.what());
@@ -271,8 +273,15 @@ std::vector<Case> expand_cases(const JsonDocument& doc, const Json& root, const 
   name_cases(&made);
 
   std::map<std::string, std::string> ids;  // by fingerprint
+  std::set<std::string> taken;
   for (const NamedCase& n : made) {
     const auto [same, fresh] = ids.emplace(fingerprint(n.c), n.c.id);
+    if (fresh && !taken.insert(n.c.id).second) {
+      throw doc.error(entries[n.entry].at(),
+                      fmt::format("makes two cases with the id {}, in which the / of a "
+                                  "path is a -; rename a file",
+                                  n.c.id));
+    }
     if (fresh) continue;
     const std::string scene = scenes.at(0).get<std::string>() + "/";
     const std::string as = same->second == n.c.id ? "" : fmt::format(", first as {}", scene + same->second);
