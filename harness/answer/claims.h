@@ -24,8 +24,9 @@ struct PaperClaim {
   double factor = 1;  // of the ratio: "less" than that
   bool equal_time =
       false;  // b's error is read off its cases over N, at a's time, in log-log; else N is the same
-  // Errors of image/metrics.h, flip_p99, p99_9; "temporal." and derivative, static or detail; "time:" and a
-  // time of report/noise.h.
+  // Errors of image/metrics.h, flip_p99, p99_9; detail, spikes and cancellation_rate of report.h's
+  // SeedResult, "region." and rmse, smape or detail; "temporal." and derivative, static or detail; "time:"
+  // and a time of report/noise.h; "time:pass:" and a glob of passes' dotted names, of which the sum counts.
   std::vector<std::string> metrics;
   std::vector<std::string> scenes;  // globs
 };

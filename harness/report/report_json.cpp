@@ -74,6 +74,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a("clocks", v.clocks);
   a.unless_empty("effects", v.effects);
   a("effects_priced", v.effects_priced);
+  a("region", v.region);
 }
 
 void fields(auto& a, Is<TimeNoise> auto& v) {
@@ -196,6 +197,13 @@ void fields(auto& a, Is<Accuracy> auto& v) {
   a("below_floor", v.below_floor);
 }
 
+void fields(auto& a, Is<RegionErrors> auto& v) {
+  a("smape", v.smape);
+  a("rmse", v.rmse);
+  a("bias", v.bias);
+  a("detail", v.detail);
+}
+
 void fields(auto& a, Is<SeedResult> auto& v) {
   a("seed", v.seed);
   a("smape", v.errors.smape);
@@ -208,6 +216,10 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("flip_p99", v.errors.flip_p99);
   a("p99_9", v.errors.p99_9);
   a("flux", v.flux);
+  a("detail", v.detail);
+  a("spikes", v.spikes);
+  a("cancellation_rate", v.cancellation_rate);
+  a("region", v.region);
 }
 
 void fields(auto& a, Is<FlickerSeries> auto& v) {
