@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "report/case_names.h"
-#include "report/noise.h"
 
 namespace vsglbench {
 namespace {
@@ -60,6 +59,11 @@ Ruling ruling_of(Truth whole, size_t holding, size_t contrary) {
   return Ruling::undecided;
 }
 
+// Of these a seed may have 0 or less, which has no logarithm.
+bool may_be_0(const std::string& metric) {
+  return metric.ends_with("detail") || metric == "cancellation_rate";
+}
+
 std::string what_is_missing(const Sides& sides, const PaperClaim& claim, const std::string& metric) {
   for (const auto& [side, settings] : {std::pair(&sides.a, &claim.a), std::pair(&sides.b, &claim.b)}) {
     if (!side->empty()) continue;
@@ -73,12 +77,16 @@ std::string what_is_missing(const Sides& sides, const PaperClaim& claim, const s
   const auto measured = [&](const ClaimCase& t) {
     return is_time(metric) ? t.ms.has_value() : t.logs.size() > 1;
   };
-  if (std::ranges::none_of(sides.a, measured) || std::ranges::none_of(sides.b, measured))
+  for (const auto& [side, settings] : {std::pair(&sides.a, &claim.a), std::pair(&sides.b, &claim.b)}) {
+    if (std::ranges::any_of(*side, measured)) continue;
+    if (const auto glob = pass_glob(metric))
+      return fmt::format("no pass of {} that takes time is named {}", settings_text(*settings), *glob);
     return fmt::format("{} was not measured{}", metric,
                        is_time(metric)               ? ""
                        : metric == "temporal.static" ? " for three seeds"
-                       : metric == "temporal.detail" ? " above 0 for two seeds"
+                       : may_be_0(metric)            ? " above 0 for two seeds"
                                                      : " for two seeds");
+  }
   if (!claim.step.empty()) return "no two cases alike in all but " + claim.step;
   return claim.equal_time ? "no two cases alike in all else whose times meet"
                           : "no two cases alike in all else";
@@ -89,8 +97,7 @@ ClaimRow row_of(const Report& report, const PaperClaim& claim, const std::string
   ClaimRow row;
   row.scene = scene;
   row.metric = metric;
-  const TimeNoise* known = noise_of(report, scene, is_time(metric) ? metric.substr(5) : "method");
-  const double noise = known ? known->noise_floor : 0;
+  const double noise = claimed_noise(report, scene, metric);
   const Sides sides = sides_of(report, claim, scene, metric);
   const std::vector<PairRatio> pairs = pairs_of(claim, sides, metric, noise);
   if (pairs.empty()) {

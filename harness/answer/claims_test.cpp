@@ -185,6 +185,89 @@ TEST(Claims, TimesAreComparedBeyondTheirNoise) {
   EXPECT_EQ(only_row(r.report, no_more).ruling, Ruling::undecided);
 }
 
+// Of a, one pass takes longer and another less, so that the sum of the half is the same.
+TEST(Claims, SinglePassesAreCompared) {
+  MadeReport r(1, 0.001, 0);
+  for (const double s : {0.5, 1.0}) {
+    MadeCase c = made(s < 1 ? "a" : "b", 64, 10);
+    c.passes = {
+        {"generate.rsm.sum", s}, {"generate.rsm.sum2", s}, {"generate.rsm.sort", 3 - 2 * s}, {"shade", 4}};
+    if (s == 1) c.passes["importance.rsm"] = 1;
+    r.add(c);
+  }
+  PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+  const auto tried = [&](const std::string& metric) {
+    claim.metrics = {metric};
+    return only_row(r.report, claim);
+  };
+  EXPECT_EQ(tried("time:pass:generate.rsm.sum*").ruling, Ruling::holds);
+  EXPECT_NEAR(tried("time:pass:generate.rsm.sum*").ratio, 0.5, 0.01);
+  EXPECT_NEAR(tried("time:pass:generate.rsm.sort").ratio, 2, 0.01);
+  EXPECT_EQ(tried("time:pass:generate.rsm.sort").ruling, Ruling::does_not_hold);
+  EXPECT_NEAR(tried("time:pass:generate.*").ratio, 1, 0.01);
+  EXPECT_EQ(tried("time:pass:nothing*").ruling, Ruling::not_run);
+  EXPECT_EQ(tried("time:pass:nothing*").why, "no pass of a that takes time is named nothing*");
+  EXPECT_EQ(tried("time:pass:importance*").why, "no pass of a that takes time is named importance*");
+  std::swap(claim.a, claim.b);
+  EXPECT_EQ(tried("time:pass:importance*").why, "no pass of a that takes time is named importance*");
+  std::swap(claim.a, claim.b);
+  // The noise is that of the pass's own time.
+  r.report.aa = {{"box", "x", "y", {{"generate", {1, {0.4, 2.5}}, 1.5}}}};
+  EXPECT_EQ(tried("time:pass:generate.rsm.sum*").ruling, Ruling::undecided);
+  r.report.aa = {{"box", "x", "y", {{"shade", {1, {0.4, 2.5}}, 1.5}}}};
+  EXPECT_EQ(tried("time:pass:generate.rsm.sum*").ruling, Ruling::holds);
+  const std::string text = claims_text(r.report, {try_claim(r.report, claim)}, true);
+  EXPECT_NE(text.find("`time:pass:generate.rsm.sum*`"), std::string::npos);
+}
+
+// Seeds move both alike by 30 %, and a has so many times what b has.
+TEST(Claims, WhatASeedsImageShowsIsComparedSeedBySeed) {
+  MadeReport r(1, 0, 0);
+  for (const char* method : {"a", "b"}) r.add(made(method, 64, 10));
+  for (CaseResult& c : r.report.cases) {
+    const double f = c.method == "a" ? 1 : 2;
+    for (SeedResult& s : c.seeds) {
+      const double scatter = 1 + 0.3 * static_cast<double>(s.seed % 3);
+      s.detail = 0.3 * f * scatter;
+      s.spikes = 0.003 * f * scatter;
+      s.cancellation_rate = 0.2 * f * scatter;
+      s.region = RegionErrors{f * scatter, 3 * f * scatter, -0.1, 0.1 * f * scatter};
+    }
+  }
+  PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+  const auto tried = [&](const std::string& metric) {
+    claim.metrics = {metric};
+    return only_row(r.report, claim);
+  };
+  for (const char* metric : {"detail", "cancellation_rate", "region.rmse", "region.smape", "region.detail"}) {
+    EXPECT_EQ(tried(metric).ruling, Ruling::holds) << metric;
+    EXPECT_NEAR(tried(metric).ratio, 0.5, 1e-9) << metric;
+  }
+  EXPECT_NEAR(tried("rmse").ratio, 1, 1e-9);
+  // A seed that has none is left out, and so is one whose detail is gone.
+  r.report.cases[0].seeds[0].detail = -0.2;
+  r.report.cases[1].seeds[1].detail.reset();
+  EXPECT_NEAR(tried("detail").ratio, 0.5, 1e-9);
+  for (SeedResult& s : r.report.cases[0].seeds) s.detail = 0;
+  EXPECT_EQ(tried("detail").why, "detail was not measured above 0 for two seeds");
+  for (SeedResult& s : r.report.cases[1].seeds) s.region.reset();
+  EXPECT_EQ(tried("region.rmse").why, "region.rmse was not measured for two seeds");
+}
+
+// Of 1000 pixels: none beside none is no difference, one beside none not endless, many beside many as they
+// are.
+TEST(Claims, SpikesAreComparedWithHalfAPixelMore) {
+  PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+  claim.metrics = {"spikes"};
+  for (const auto& [a, b] : {std::pair(0, 0), std::pair(1, 0), std::pair(100, 200)}) {
+    MadeReport r(1, 0, 0);
+    for (const char* method : {"a", "b"}) r.add(made(method, 64, 10));
+    for (SeedResult& s : r.report.cases[0].seeds) s.spikes = a / 1000.0;
+    for (SeedResult& s : r.report.cases[1].seeds) s.spikes = b / 1000.0;
+    EXPECT_NEAR(only_row(r.report, claim).ratio, (a + 0.5) / (b + 0.5), 1e-9) << a << " beside " << b;
+  }
+}
+
 MadeCase moving(const std::string& method, double k, double flicker, double detail = 1) {
   MadeCase c = made(method, 64, 10);
   c.parameters["K"] = k;
@@ -337,6 +420,28 @@ TEST(Claims, AFaultyListIsRefusedByItsLine) {
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find(":3: "), std::string::npos) << e.what();
   }
+  std::filesystem::remove(path);
+}
+
+TEST(Claims, AListMayNameAnyPassButNoOtherMetric) {
+  const auto path = std::filesystem::temp_directory_path() / fmt::format("claims_test_{}.json", ::getpid());
+  const auto error_of = [&](const std::string& metric) -> std::string {
+    write_text(path, R"({"claims": [{"name": "x", "text": "t", "source": "s", "a": {}, "b": {},
+      "says": "less", "metrics": [")" +
+                         metric + R"("]}]})");
+    try {
+      return load_claims(path).at(0).metrics.at(0) == metric ? "" : "another metric";
+    } catch (const Error& e) {
+      return e.what();
+    }
+  };
+  for (const char* metric : {"rmse", "detail", "spikes", "cancellation_rate", "region.rmse", "region.smape",
+                             "region.detail", "time:pass:generate.rsm.sum*", "time:pass:shade"})
+    EXPECT_EQ(error_of(metric), "");
+  for (const char* metric : {"time:pass:", "time:passes:x", "region.flip", "pass:shade"})
+    EXPECT_NE(error_of(metric).find(":2: "), std::string::npos) << error_of(metric);
+  EXPECT_NE(error_of("region.rmsee").find("did you mean 'region.rmse'"), std::string::npos)
+      << error_of("region.rmsee");
   std::filesystem::remove(path);
 }
 

@@ -49,15 +49,21 @@ std::string terminal(const TriedClaim& tried) {
   std::string out = fmt::format("{}: {}\n  {}  {}\n  {}\n", tried.claim.name, summary(tried),
                                 tried.claim.text, tried.claim.source, comparison_text(tried.claim));
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "    " + why + "\n";
-  size_t scene = 5;
+  size_t scene = 5, metric = 19;
   for (const ClaimRow& r : tried.rows) scene = std::max(scene, r.scene.size());
-  out += fmt::format("    {:<{}}  {:<19}  {:<13}  {:<24}  {}\n", "scene", scene, "metric", "claim",
+  for (const ClaimRow& r : tried.rows) metric = std::max(metric, r.metric.size());
+  out += fmt::format("    {:<{}}  {:<{}}  {:<13}  {:<24}  {}\n", "scene", scene, "metric", metric, "claim",
                      "ratio [95 %]", "pairs, each alone");
   for (const ClaimRow& r : tried.rows) {
-    out += fmt::format("    {:<{}}  {:<19}  {:<13}  {:<24}  {}\n", printable(r.scene), scene, r.metric,
-                       name(r.ruling), ratio_text(r), pairs_text(r));
+    out += fmt::format("    {:<{}}  {:<{}}  {:<13}  {:<24}  {}\n", printable(r.scene), scene, r.metric,
+                       metric, name(r.ruling), ratio_text(r), pairs_text(r));
   }
   return out;
+}
+
+// Stars of a glob are no emphasis.
+std::string as_code(const std::string& metric) {
+  return metric.find('*') == std::string::npos ? metric : "`" + metric + "`";
 }
 
 std::string markdown(const TriedClaim& tried) {
@@ -66,7 +72,7 @@ std::string markdown(const TriedClaim& tried) {
   if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
   out += "| scene | metric | ruling | ratio [95 %] | pairs, each alone |\n| --- | --- | --- | ---: | --- |\n";
   for (const ClaimRow& r : tried.rows)
-    out += fmt::format("| {} | {} | {} | {} | {} |\n", printable(r.scene), r.metric, name(r.ruling),
+    out += fmt::format("| {} | {} | {} | {} | {} |\n", printable(r.scene), as_code(r.metric), name(r.ruling),
                        ratio_text(r), pairs_text(r));
   return out + "\n";
 }

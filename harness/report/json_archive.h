@@ -64,6 +64,7 @@ class JsonWriter {
   static Json encode(const Interval& v) { return {v.lo, v.hi}; }
   static Json encode(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
   static Json encode(const glm::uvec2& v) { return {v.x, v.y}; }
+  static Json encode(const Crop& v) { return {v.x, v.y, v.width, v.height}; }
   static Json encode(const PassId& v) { return v.name(); }
   static Json encode(ErrorKind v) { return std::string(name(v)); }
   static Json encode(Status v) { return std::string(name(v)); }
@@ -113,6 +114,9 @@ class JsonReader {
     v = {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
   }
   static void decode(const Json& j, glm::uvec2& v) { v = {j.at(0).get<uint32_t>(), j.at(1).get<uint32_t>()}; }
+  static void decode(const Json& j, Crop& v) {
+    v = {j.at(0).get<uint32_t>(), j.at(1).get<uint32_t>(), j.at(2).get<uint32_t>(), j.at(3).get<uint32_t>()};
+  }
   static void decode(const Json& j, PassId& v) { v = parse_pass_name(j.get<std::string>()); }
   static void decode(const Json& j, ErrorKind& v) { v = error_kind(j.get<std::string>()).value(); }
   static void decode(const Json& j, Status& v) { v = pick(j, {Status::ok, Status::failed, Status::skipped}); }

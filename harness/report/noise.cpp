@@ -1,7 +1,9 @@
 #include "report/noise.h"
 
 #include <algorithm>
+#include <map>
 
+#include "report/case_names.h"
 #include "report/metric_cell.h"
 
 namespace vsglbench {
@@ -56,6 +58,25 @@ std::optional<Summary> time_of(const CaseResult& c, const std::string& column) {
   if (const auto stage = stage_of(column)) return stage_time(c.passes, *stage);
   if (column == "frame") return c.frame->span;
   throw std::logic_error("no time is named " + column);
+}
+
+std::optional<Summary> time_of_passes(const CaseResult& c, const std::string& glob) {
+  return pass_time(c.passes, [&](const PassId& pass) { return matches_glob(pass.name(), glob); });
+}
+
+std::string column_of_passes(const Report& report, const std::string& scene, const std::string& glob) {
+  std::map<std::string, PassId> meant;  // the cases of a scene have few passes, and most of them in common
+  for (const CaseResult& c : report.cases) {
+    if (c.scene != scene) continue;
+    for (const PassTiming& p : c.passes) meant.emplace(p.pass.name(), p.pass);
+  }
+  std::erase_if(meant, [&](const auto& pass) { return !matches_glob(pass.first, glob); });
+  if (meant.empty()) return "frame";
+  for (const char* column : {"generate", "importance", "visibility", "shade"}) {
+    const auto counts = [&](const auto& pass) { return counts_in(column, pass.second); };
+    if (std::ranges::all_of(meant, counts)) return column;
+  }
+  return "frame";
 }
 
 AaPair aa_pair(const CaseResult& original, const CaseResult& twin) {

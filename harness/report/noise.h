@@ -20,6 +20,15 @@ bool counts_in(const std::string& column, const PassId& pass);
 // ms of each frame; nothing when the case has no such time.
 std::optional<Summary> time_of(const CaseResult& c, const std::string& column);
 
+// ms of each frame that the passes take whose dotted name ("generate.rsm.sort") matches the glob, added up;
+// nothing where none does.
+std::optional<Summary> time_of_passes(const CaseResult& c, const std::string& glob);
+
+// The time whose noise stands for that of such passes: "generate", "importance", "visibility" or "shade",
+// where all that match in the scene's cases are parts of it, else "frame". The noise of a short pass may be
+// larger.
+std::string column_of_passes(const Report& report, const std::string& scene, const std::string& glob);
+
 // The noise of every time of which both have samples above 0 only.
 AaPair aa_pair(const CaseResult& original, const CaseResult& twin);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "report/synthetic_report.h"
@@ -73,6 +75,49 @@ TEST(Noise, ATimeIsTheSumOfThePassesThatCountInIt) {
     const auto time = time_of(c, column);
     EXPECT_NEAR(sum, time ? time->median : 0, 1e-12) << column;
   }
+}
+
+// Frame by frame, from the samples.
+TEST(Noise, TheTimeOfPassesIsTheSumOfThoseThatMatch) {
+  const CaseResult c = synthetic_case("cornell/mfis");
+  const auto sum_of = [&](const std::vector<std::string>& names) {
+    std::vector<double> sums(4, 0);
+    for (const PassTiming& p : c.passes) {
+      if (std::ranges::count(names, p.pass.name()) == 0) continue;
+      for (size_t i = 0; i < sums.size(); ++i) sums[i] += p.ms.samples[i];
+    }
+    return sums;
+  };
+  const std::map<std::string, std::vector<std::string>> meant = {
+      {"generate.rsm.mipmap", {"generate.rsm.mipmap"}},
+      {"generate.rsm.*", {"generate.rsm.mipmap", "generate.rsm.filter"}},
+      {"*.mipmap", {"generate.gbuffer.mipmap", "generate.rsm.mipmap"}},
+      {"gbuffer", {"gbuffer"}},
+      {"*[st]h*", {"shade"}}};
+  for (const auto& [glob, names] : meant) {
+    const auto time = time_of_passes(c, glob);
+    ASSERT_TRUE(time) << glob;
+    EXPECT_EQ(time->samples, sum_of(names)) << glob;
+  }
+  EXPECT_FALSE(time_of_passes(c, "generate.rsm"));
+  EXPECT_FALSE(time_of_passes(c, "importance*"));
+}
+
+TEST(Noise, PassesHaveTheNoiseOfTheTimeThatTheyArePartsOf) {
+  Report r;
+  r.cases = {measured(1, 3, 6, 10), measured(1, 3, 6, 10)};
+  r.cases[1].passes.push_back({parse_pass_name("importance.rsm"), summarize({1})});
+  r.cases[1].passes.push_back({parse_pass_name("visibility.ism"), summarize({1})});
+  const std::map<std::string, std::string> columns = {{"generate.*", "generate"},
+                                                      {"*.rsm.sample", "generate"},
+                                                      {"importance*", "importance"},
+                                                      {"visibility.*", "visibility"},
+                                                      {"shade", "shade"},
+                                                      {"rsm", "frame"},
+                                                      {"*rsm*", "frame"},
+                                                      {"nothing", "frame"}};
+  for (const auto& [glob, column] : columns) EXPECT_EQ(column_of_passes(r, "cornell", glob), column) << glob;
+  EXPECT_EQ(column_of_passes(r, "sponza", "shade"), "frame");
 }
 
 TEST(Noise, ATimeThatTheClockDidNotSeeIsLeftOut) {

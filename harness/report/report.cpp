@@ -7,27 +7,6 @@
 #include <stdexcept>
 
 namespace vsglbench {
-namespace {
-
-template <class Wanted>
-std::optional<Summary> sum_of(const std::vector<PassTiming>& passes, const Wanted& wanted) {
-  std::vector<double> sums;
-  bool any = false;
-  for (const PassTiming& pass : passes) {
-    if (!wanted(pass.pass)) continue;
-    if (any && pass.ms.samples.size() != sums.size()) {
-      throw std::invalid_argument(
-          fmt::format("pass {} has {} samples, not {}", pass.pass, pass.ms.samples.size(), sums.size()));
-    }
-    sums.resize(pass.ms.samples.size(), 0);
-    for (size_t i = 0; i < sums.size(); ++i) sums[i] += pass.ms.samples[i];
-    any = true;
-  }
-  if (!any) return std::nullopt;
-  return summarize(std::move(sums));
-}
-
-}  // namespace
 
 std::string_view name(Status status) {
   switch (status) {
@@ -55,18 +34,36 @@ FluxResult flux_over_seeds(const std::vector<double>& ratios) {
   return {estimate.mean, estimate.known ? std::optional(estimate.ci95) : std::nullopt, *least, *most};
 }
 
+std::optional<Summary> pass_time(const std::vector<PassTiming>& passes,
+                                 const std::function<bool(const PassId&)>& wanted) {
+  std::vector<double> sums;
+  bool any = false;
+  for (const PassTiming& pass : passes) {
+    if (!wanted(pass.pass)) continue;
+    if (any && pass.ms.samples.size() != sums.size()) {
+      throw std::invalid_argument(
+          fmt::format("pass {} has {} samples, not {}", pass.pass, pass.ms.samples.size(), sums.size()));
+    }
+    sums.resize(pass.ms.samples.size(), 0);
+    for (size_t i = 0; i < sums.size(); ++i) sums[i] += pass.ms.samples[i];
+    any = true;
+  }
+  if (!any) return std::nullopt;
+  return summarize(std::move(sums));
+}
+
 std::optional<Summary> generate_time(const std::vector<PassTiming>& passes, std::optional<Half> half) {
-  return sum_of(passes, [&](const PassId& pass) {
+  return pass_time(passes, [&](const PassId& pass) {
     return pass.stage == PassStage::generate && (!half || pass.half == half);
   });
 }
 
 std::optional<Summary> method_time(const std::vector<PassTiming>& passes) {
-  return sum_of(passes, [](const PassId& pass) { return pass.stage != PassStage::draw; });
+  return pass_time(passes, [](const PassId& pass) { return pass.stage != PassStage::draw; });
 }
 
 std::optional<Summary> stage_time(const std::vector<PassTiming>& passes, PassStage stage) {
-  return sum_of(passes, [&](const PassId& pass) { return pass.stage == stage; });
+  return pass_time(passes, [&](const PassId& pass) { return pass.stage == stage; });
 }
 
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes) {

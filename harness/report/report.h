@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "gpu/pass_id.h"
+#include "image/crop.h"
 #include "image/metrics.h"
 #include "measure/statistics.h"
 #include "measure/stopping.h"
@@ -85,6 +87,9 @@ struct SceneReport {
   std::optional<ClockReport> clocks;            // absent where no library tells
   std::vector<EffectReport> effects;            // empty in a report of old
   std::optional<EffectPricing> effects_priced;  // absent: not asked for, or no case was sound
+  // The view's (scene/region.h), in pixels of the frame of the scene's first case; absent: it has none, or it
+  // holds no pixel.
+  std::optional<Crop> region;
 };
 
 struct TimeNoise {
@@ -186,6 +191,13 @@ struct Accuracy {
   bool below_floor = false;  // smape is not above noise_floor_smape
 };
 
+// Over the pixels of the view's region (scene/region.h) that count.
+struct RegionErrors {
+  double smape = 0, rmse = 0;
+  std::optional<double> bias;    // absent where the reference is black there
+  std::optional<double> detail;  // as SeedResult's
+};
+
 struct SeedResult {
   uint64_t seed = 0;
   Errors errors;
@@ -194,6 +206,12 @@ struct SeedResult {
   // and in reports of old.
   std::optional<Coverage> coverage;
   std::optional<KernelStats> kernels;
+  // How much of the reference's detail is kept (image/detail.h: slope / gain); absent where the reference has
+  // none, or no halves to tell it by.
+  std::optional<double> detail;
+  std::optional<double> spikes;             // share of the pixels (image/spikes.h); absent: black reference
+  std::optional<double> cancellation_rate;  // as ShadingResult's, of this seed's lights
+  std::optional<RegionErrors> region;       // absent where the view has none, or no pixel of it counts
 };
 
 // How much a case flickers, over mean(r): the mean over seeds with Student's interval (absent for a single
@@ -339,6 +357,10 @@ std::optional<Summary> method_time(const std::vector<PassTiming>& passes);
 
 // Frame by frame, the sum of a stage's passes. Nothing without such a pass; throws as above.
 std::optional<Summary> stage_time(const std::vector<PassTiming>& passes, PassStage stage);
+
+// The same of any passes.
+std::optional<Summary> pass_time(const std::vector<PassTiming>& passes,
+                                 const std::function<bool(const PassId&)>& wanted);
 
 // Span, Σ passes, the unattributed rest and the method's time from the raw per-frame spans.
 FrameTiming frame_timing(std::vector<double> span_ms, const std::vector<PassTiming>& passes);

@@ -74,6 +74,7 @@ void fields(auto& a, Is<SceneReport> auto& v) {
   a("clocks", v.clocks);
   a.unless_empty("effects", v.effects);
   a("effects_priced", v.effects_priced);
+  a("region", v.region);
 }
 
 void fields(auto& a, Is<TimeNoise> auto& v) {
@@ -210,6 +211,13 @@ void fields(auto& a, Is<KernelStats> auto& v) {
   a("spread", v.spread);
 }
 
+void fields(auto& a, Is<RegionErrors> auto& v) {
+  a("smape", v.smape);
+  a("rmse", v.rmse);
+  a("bias", v.bias);
+  a("detail", v.detail);
+}
+
 void fields(auto& a, Is<SeedResult> auto& v) {
   a("seed", v.seed);
   a("smape", v.errors.smape);
@@ -224,6 +232,10 @@ void fields(auto& a, Is<SeedResult> auto& v) {
   a("flux", v.flux);
   a("coverage", v.coverage);
   a("kernels", v.kernels);
+  a("detail", v.detail);
+  a("spikes", v.spikes);
+  a("cancellation_rate", v.cancellation_rate);
+  a("region", v.region);
 }
 
 void fields(auto& a, Is<FlickerSeries> auto& v) {

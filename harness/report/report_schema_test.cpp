@@ -73,6 +73,7 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
                                        "/scenes/0/clocks",
                                        "/scenes/0/effects",
                                        "/scenes/0/effects_priced",
+                                       "/scenes/0/region",
                                        "/scenes/0/effects/0/bytes",
                                        "/scenes/0/effects/0/ms",
                                        "/scenes/0/effects/0/ms_ci95",
@@ -117,8 +118,10 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
-    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux",
-                            "coverage", "coverage/pdf_overlap", "coverage/pdf_gap", "kernels"})
+    for (const char* key :
+         {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux", "coverage",
+          "coverage/pdf_overlap", "coverage/pdf_gap", "kernels", "detail", "spikes", "cancellation_rate",
+          "region", "region/bias", "region/detail"})
       expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
   }
   for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {
@@ -162,6 +165,7 @@ TEST(ReportSchema, UnknownFieldsAreRefused) {
                              "/cases/0/seeds/2",
                              "/cases/0/seeds/2/coverage",
                              "/cases/0/seeds/2/kernels",
+                             "/cases/0/seeds/2/region",
                              "/cases/0/health",
                              "/cases/1/error",
                              "/cases/0/temporal",
@@ -255,6 +259,11 @@ TEST(ReportSchema, ValuesOutOfRangeAreRefused) {
                                                  {"/cases/0/seeds/0/smape", "12"},
                                                  {"/cases/0/seeds/0/coverage/gap", 1.5},
                                                  {"/cases/0/seeds/0/kernels/over", 1.5},
+                                                 {"/cases/0/seeds/0/spikes", 1.5},
+                                                 {"/cases/0/seeds/0/cancellation_rate", -0.5},
+                                                 {"/cases/0/seeds/0/region/rmse", -1},
+                                                 {"/scenes/0/region", {0, 0, 32}},
+                                                 {"/scenes/0/region/2", 0.5},
                                                  {"/cases/0/stopping/reason", "bored"},
                                                  {"/cases/0/images/indirect", "/absolute.exr"}};
   for (const auto& [pointer, value] : faults) {

@@ -47,6 +47,16 @@ TEST_F(ReportFile, ReadsBackEveryField) {
   EXPECT_EQ(read.cases[0].passes[3].ms.samples, report.cases[0].passes[3].ms.samples);
   EXPECT_EQ(read.cases[0].seeds[5].errors.pixels, 1000u);
   EXPECT_EQ(read.cases[1].health->first_bad->pixel, glm::uvec2(7, 9));
+  EXPECT_EQ(read.scenes[0].region, (Crop{1, 4, 30, 13}));
+  const SeedResult &seed = read.cases[0].seeds[5], &was = report.cases[0].seeds[5];
+  EXPECT_EQ(seed.detail, was.detail);
+  EXPECT_EQ(seed.spikes, was.spikes);
+  EXPECT_EQ(seed.cancellation_rate, was.cancellation_rate);
+  ASSERT_TRUE(seed.region);
+  EXPECT_EQ(seed.region->smape, 14);
+  EXPECT_EQ(seed.region->rmse, 0.03);
+  EXPECT_EQ(seed.region->bias, -0.02);
+  EXPECT_EQ(seed.region->detail, was.region->detail);
   EXPECT_EQ(read.cases[2].status, Status::skipped);
 }
 
@@ -76,6 +86,10 @@ TEST_F(ReportFile, ReportsOfOldAreRead) {
                {"noise_floor", 0.02}};
   old["cases"][0]["frame"].erase("method");
   old["cases"][0]["frame"].erase("host_visibility");
+  old["scenes"][0].erase("region");
+  for (Json& seed : old["cases"][0]["seeds"]) {
+    for (const char* key : {"detail", "spikes", "cancellation_rate", "region"}) seed.erase(key);
+  }
   write_text(path_, old.dump());
   const Report r = read_report(path_);
   ASSERT_EQ(r.aa.size(), 1u);
@@ -85,6 +99,8 @@ TEST_F(ReportFile, ReportsOfOldAreRead) {
   EXPECT_EQ(r.aa[0].times[0].noise_floor, 0.02);
   EXPECT_EQ(r.cases[0].frame->method->samples, synthetic_report().cases[0].frame->method->samples);
   EXPECT_FALSE(r.cases[0].frame->host_visibility);
+  const SeedResult& seed = r.cases[0].seeds.at(3);
+  EXPECT_FALSE(seed.detail || seed.spikes || seed.cancellation_rate || seed.region || r.scenes[0].region);
 }
 
 TEST_F(ReportFile, NumbersThatAreNotFiniteAreNamedAndNothingIsWritten) {

@@ -40,7 +40,11 @@ inline CaseResult synthetic_case(const std::string& id) {
                         0.2 + 0.01 * d, 0.5, 2.5},
                        0.9,
                        Coverage{0.25 + 0.01 * d, 0.125, 0.5, 0.25 + 0.01 * d},
-                       KernelStats{6 + d, 1.25, 0.0625, 0.5}});
+                       KernelStats{6 + d, 1.25, 0.0625, 0.5},
+                       0.8 + 0.01 * d,
+                       0.001,
+                       0.25 + 0.01 * d,
+                       RegionErrors{14, 0.03, -0.02, 0.7 + 0.01 * d}});
   }
   ReferenceInfo reference{"0123abcd", 1024, 0.5,   0.001, 0.4,   0.01,   0.002,
                           0.03,       0.25, 0.125, 16,    0.002, "floor"};
@@ -113,6 +117,7 @@ inline Report synthetic_report() {
                           4096}};
   r.scenes[0].effects_priced =
       EffectPricing{"cornell/mfis", 4, 10, 21, {2.1, {2.0, 2.2}}, 1 << 20, 3 << 20, 1.5};
+  r.scenes[0].region = Crop{1, 4, 30, 13};
   r.scenes[0].clocks = ClockReport{3, 1800, 1980, 3201, 3201, 62, 512.5, {"P0"}, {}};
   r.aa = {
       {"cornell",

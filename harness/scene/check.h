@@ -14,7 +14,7 @@ void check_scene(const Scene& scene);
 
 // Hash of everything that determines radiance: geometry, materials, texels, light, camera. Of a
 // scene that moves: in its present pose; frames of equal pose have equal hashes. Not of names, near and far
-// planes, the origin, or warnings.
+// planes, the origin, the region, or warnings.
 std::string scene_hash(const Scene& scene);
 
 }  // namespace vsglbench

@@ -11,10 +11,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/motion.h"
+#include "scene/region.h"
 
 namespace vsglbench {
 
@@ -83,6 +85,7 @@ struct Scene {
   glm::vec3 bounds_min{0}, bounds_max{0};  // of all frames
   Light light;
   Camera camera;
+  std::optional<Region> region;       // of the view, where errors are told by themselves
   Animation animation;                // how the above moves; set_frame() poses it
   std::vector<std::string> warnings;  // what was ignored or repaired, one line each
   std::string hash;                   // content hash of what determines radiance in the present frame

@@ -101,6 +101,39 @@ TEST_F(SceneFile, HashFollowsWhatDeterminesRadiance) {
   EXPECT_EQ(load_text(renamed).hash, hash);
 }
 
+// It says where errors are told, and nothing of radiance: references and committed reports keep their hashes.
+TEST_F(SceneFile, AViewMayHaveARegion) {
+  const auto with = [](const std::string& region) {
+    std::string text = kText;
+    return text.replace(text.find("\"camera\""), 0, "\"region\": " + region + ",\n    ");
+  };
+  const Scene plain = load_text(kText), scene = load_text(with("[0.25, 0, 0.75, 0.5]"));
+  EXPECT_FALSE(plain.region);
+  ASSERT_TRUE(scene.region);
+  EXPECT_EQ(scene.region->x0, 0.25);
+  EXPECT_EQ(scene.region->y0, 0);
+  EXPECT_EQ(scene.region->x1, 0.75);
+  EXPECT_EQ(scene.region->y1, 0.5);
+  EXPECT_EQ(scene.hash, plain.hash);
+  const auto error_of_region = [&](const std::string& region) -> std::string {
+    try {
+      load_text(with(region));
+      return "";
+    } catch (const Error& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(error_of_region("[0, 0, 1, 1]"), "");
+  EXPECT_TRUE(contains(error_of_region("[0.5, 0, 0.5, 1]"),
+                       "scene.json:7: 'views/A/region' has x0 = 0.5, which is not below x1 = 0.5"));
+  EXPECT_TRUE(contains(error_of_region("[0, 0.75, 1, 0.5]"), "has y0 = 0.75, which is not below y1 = 0.5"));
+  EXPECT_TRUE(contains(error_of_region("[0, 0, 1, 1.5]"), "scene.json:7: 'views/A/region/3'"));
+  EXPECT_TRUE(contains(error_of_region("[-0.5, 0, 1, 1]"), "'views/A/region/0'"));
+  EXPECT_TRUE(contains(error_of_region("[0, 0, 1]"), "'views/A/region'"));
+  EXPECT_TRUE(contains(error_of_region("[0, 0, 1, 1, 1]"), "'views/A/region'"));
+  EXPECT_TRUE(contains(error_of_region("\"all\""), "'views/A/region'"));
+}
+
 TEST_F(SceneFile, NearAndFarEncloseTheGeometry) {
   const Scene scene = load_text(kText);
   const View camera = camera_view(scene.camera, 480, 272), light = light_view(scene.light);

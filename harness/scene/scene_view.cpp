@@ -28,6 +28,17 @@ class ViewReader {
     return json.contains("spot") ? spot(at + "/spot") : sun(at + "/sun");
   }
 
+  std::optional<Region> region(const std::string& at) const {
+    if (!has(at)) return std::nullopt;
+    const Json& v = value(at);
+    const Region r{v[0].get<double>(), v[1].get<double>(), v[2].get<double>(), v[3].get<double>()};
+    if (!(r.x0 < r.x1))
+      throw document_.error(at, fmt::format("has x0 = {}, which is not below x1 = {}", r.x0, r.x1));
+    if (!(r.y0 < r.y1))
+      throw document_.error(at, fmt::format("has y0 = {}, which is not below y1 = {}", r.y0, r.y1));
+    return r;
+  }
+
  private:
   const Json& value(const std::string& at) const { return document_.root().at(Json::json_pointer(at)); }
   bool has(const std::string& at) const { return document_.root().contains(Json::json_pointer(at)); }
@@ -156,6 +167,7 @@ void apply_view(const JsonDocument& document, const std::string& pointer, double
   const ViewReader reader(document, unit);
   const std::string camera_at = pointer + "/camera", light_at = pointer + "/light";
   Animation& animation = scene->animation;
+  scene->region = reader.region(pointer + "/region");
   const CameraMotion camera = reader.camera(camera_at);
   animation.moves.camera =
       pose_all(document, camera_at, camera, *scene, &scene->camera, [](const Camera&, uint32_t) {});
