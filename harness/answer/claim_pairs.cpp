@@ -108,9 +108,12 @@ std::map<uint64_t, double> logs_of(const CaseResult& c, const std::string& metri
     if (metric == "temporal.static" && out.size() < 3) out.clear();
     return out;
   }
+  // Most light sets have no such kernel at all: half a light more on both sides, as with spikes.
+  const bool of_lights = metric == "kernel_over" && c.generate && c.generate->lights > 0;
+  const double half_light = of_lights ? 0.5 / static_cast<double>(c.generate->lights) : 0;
   for (const SeedResult& s : c.seeds) {
     const auto value = seed_value(s, metric);
-    if (value && *value > 0) out[s.seed] = std::log(*value);
+    if (value && *value + half_light > 0) out[s.seed] = std::log(*value + half_light);
   }
   return out;
 }

@@ -25,7 +25,7 @@ struct PaperClaim {
   bool equal_time =
       false;  // b's error is read off its cases over N, at a's time, in log-log; else N is the same
   // Errors of image/metrics.h, flip_p99, p99_9; of how the lights lie on the RSM (report/coverage.h) overlap,
-  // gap, pdf_overlap, pdf_gap, kernel_largest, kernel_over, of seeds in which it is above 0; detail, spikes and
+  // gap, pdf_overlap, pdf_gap, kernel_largest, kernel_over; detail, spikes and
   // cancellation_rate of report.h's SeedResult, "region." and rmse, smape or detail; "temporal." and
   // derivative, static or detail; "time:" and a time of report/noise.h; "time:pass:" and a glob of passes'
   // dotted names, of which the sum counts.

@@ -120,6 +120,22 @@ TEST(Claims, HowTheLightsLieIsComparedSeedBySeed) {
   }
 }
 
+// A set without a too large kernel counts as one with half of one.
+TEST(Claims, NoTooLargeKernelIsFewerThanSome) {
+  MadeReport r(1, 0, 0.1);
+  r.add(made("a", 64, 10));
+  r.add(made("b", 64, 10));
+  for (CaseResult& c : r.report.cases) {
+    c.generate.emplace().lights = 64;
+    for (SeedResult& s : c.seeds) s.kernels = KernelStats{.largest = 1, .over = c.method == "a" ? 0 : 3.5 / 64};
+  }
+  PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+  claim.metrics = {"kernel_over"};
+  const ClaimRow row = only_row(r.report, claim);
+  EXPECT_EQ(row.ruling, Ruling::holds);
+  EXPECT_NEAR(row.ratio, 0.5 / 4, 1e-9);
+}
+
 TEST(Claims, SaysWhatWasNotRun) {
   MadeReport r(1, 0, 0.1);
   r.add(made("a", 64, 10));
