@@ -46,7 +46,8 @@ TEST_F(KernelsTest, EverySeedHasThoseOfItsLights) {
         EXPECT_EQ(part_to_json(*of->coverage), part_to_json(*listed[i].coverage)) << c.id;
         EXPECT_TRUE(of->coverage->pdf_gap.has_value()) << c.id;
       }
-      if (of->kernels) EXPECT_EQ(part_to_json(*of->kernels), part_to_json(*listed[i].kernels)) << c.id;
+      if (!of->kernels) continue;
+      EXPECT_EQ(part_to_json(*of->kernels), part_to_json(*listed[i].kernels)) << c.id;
     }
   }
   const SeedResult &first = r.cases[0].seeds[0], &second = r.cases[0].seeds[1];
