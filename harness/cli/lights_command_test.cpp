@@ -1,6 +1,7 @@
 // `vsglbench lights` as a user meets it.
 #include <algorithm>
 
+#include "base/csv.h"
 #include "cli/cli_fixture.h"
 #include "image/png.h"
 
@@ -35,6 +36,9 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
   for (const char* method : {"mfis", "kmeans2d", "vpl"}) {
     EXPECT_EQ(read_png(folder(method) / "rsm.png").width, 16u * 16 + 24) << method;
     EXPECT_GT(read_png(folder(method) / "scene.png").width, 900u) << method;
+    const bool filters = std::string(method) == "mfis";
+    EXPECT_EQ(fs::exists(folder(method) / "moments.png"), filters) << method;
+    if (filters) EXPECT_EQ(read_png(folder(method) / "moments.png").width, 996u);
     const Json j = json(method);
     expect_numbers(j);
     EXPECT_EQ(j.at("schema"), "vsglbench.lights/2");
@@ -47,11 +51,43 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
     EXPECT_EQ(j.contains("coverage"), std::string(method) != "vpl");
   }
   EXPECT_TRUE(json("mfis").at("lights")[0].contains("footprint"));
+  EXPECT_TRUE(json("mfis").at("lights")[0].contains("edge_share"));
+  EXPECT_GT(json("mfis").at("edges").at("lights_on").get<int>() +
+                json("mfis").at("edges").at("lights_off").get<int>(),
+            0);
+  EXPECT_FALSE(json("kmeans2d").contains("edges") || json("vpl").contains("edges"));
   EXPECT_EQ(json("kmeans2d").at("coverage").at("overlap"), 0);
   EXPECT_TRUE(json("vpl").at("lights")[0].contains("brdf"));
   const std::string table = read_text(out_ / "coverage.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   EXPECT_TRUE(contains(table, "\"cornell/mfis/N=16,rsm=16,vis=exact\",5,ok,16,"));
+}
+
+// A row of each seed is that of a run with it alone; pictures and list are of the first.
+TEST_F(LightsCommand, SeveralSeedsAreRowsOfCoverage) {
+  config_["methods"] = {{{"method", "mfis"}}, {{"method", "vpl"}}};
+  const auto rows = [&](std::vector<std::string> more) {
+    const Finished f = lights(more);
+    EXPECT_EQ(f.code, 0) << f.err;
+    return parse_csv(read_text(out_ / "coverage.csv"));
+  };
+  const auto alone = rows({"--seed", "7"});
+  const Json last = json("mfis");
+  const auto all = rows({"--seed", "5", "--seeds", "3"});
+  ASSERT_EQ(alone.size(), 3u);
+  ASSERT_EQ(all.size(), 7u);
+  EXPECT_EQ(all[0], alone[0]);
+  for (const size_t row : {1, 2, 3, 4, 5, 6}) {
+    EXPECT_EQ(all[row].size(), all[0].size());
+    EXPECT_EQ(all[row][0], alone[row > 3 ? 2 : 1][0]);
+    EXPECT_EQ(all[row][1], std::to_string(5 + (row - 1) % 3));
+  }
+  EXPECT_EQ(all[3], alone[1]);
+  EXPECT_NE(all[1][5], all[3][5]) << "another lattice overlaps otherwise";
+  EXPECT_EQ(json("mfis").at("seed"), 5);
+  EXPECT_NE(json("mfis").at("lights"), last.at("lights"));
+  expect_refused(lights({"--seeds", "0"}), 2, "--seeds");
+  expect_refused(lights({"--seed", "4294967295", "--seeds", "2"}), 2, "--seed 4294967295");
 }
 
 TEST_F(LightsCommand, CsvOfOneCase) {

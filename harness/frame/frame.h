@@ -58,6 +58,8 @@ class Frame {
   uint32_t light_count() const { return parts_.lights.count(); }
   LightKind light_kind() const { return parts_.lights.kind(); }
   LightShapes light_shapes() const { return parts_.generator.method().shapes(Half::rsm); }
+  // What the method under test has asked for on the RSM.
+  const MethodContext& method_context() const { return parts_.generator.context(); }
   bool uses_importance() const { return parts_.importance.has_value(); }
   // Kernels and scratch memory that the method asked for.
   size_t method_kernels() const;

@@ -88,6 +88,7 @@ Json light_list(const LightSet& set, const glm::dvec3& origin) {
       light["footprint"] = {{"x", shortest(s.x)}, {"y", shortest(s.y)}, {"side", shortest(s.z)}};
     }
     if (i < masses.size()) light["mass"] = masses[i];
+    if (i < set.edges.size()) light["edge_share"] = set.edges[i].share;
     list.push_back(std::move(light));
   });
   return list;

@@ -7,6 +7,7 @@
 #include "base/json.h"
 #include "frame/light_records.h"
 #include "lights/coverage.h"
+#include "lights/edges.h"
 
 namespace vsglbench {
 
@@ -15,6 +16,7 @@ struct LightSet {
   LightRecords lights;
   uint32_t rsm = 0;  // texels a side
   RsmShapes shapes;
+  std::vector<FootprintEdges> edges;  // one a light; empty where the method has no square footprints
   std::vector<float> pdf;  // on the RSM, of any scale, row by row; empty where the method uses none
 
   uint32_t count() const { return static_cast<uint32_t>(lights.count()); }
@@ -32,7 +34,7 @@ struct LightSet {
 //             ("ggx" with alpha, "phong" with exponent, "none"); radius (m, of a VSL); clamp (1/m², where
 //             set)
 //   both      footprint: x, y (centre) and side in texels of the RSM, for methods that have square
-//   footprints;
+//   footprints, and edge_share (FootprintEdges::share);
 //             mass: what it holds of the PDF, as kernel_masses(), where there is one
 Json light_list(const LightSet& lights, const glm::dvec3& origin);
 

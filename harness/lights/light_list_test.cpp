@@ -38,6 +38,7 @@ LightSet two_vsgls() {
   LightSet set;
   set.lights = records_of(LightKind::vsgl, std::vector{gpu::Vsgl{}, vsgl()});  // the first has no power
   set.shapes.squares = {{}, {8.5f, 4.5f, 11.3f, 0}};
+  set.edges = {{}, {0.25, 0.1}};
   return set;
 }
 
@@ -63,6 +64,7 @@ TEST(LightList, VsglInWorldCoordinates) {
   EXPECT_EQ(l.at("diffuse").dump(), R"({"axis":[0.0,1.0,0.0],"sharpness":2.0,"amplitude":[1.0,0.5,0.2]})");
   EXPECT_EQ(l.at("specular").at("sharpness"), 1e6);
   EXPECT_EQ(static_cast<float>(l.at("footprint").at("side").get<double>()), 11.3f);
+  EXPECT_EQ(l.at("edge_share"), 0.25);
 }
 
 // Of two lights, the second's square is the texel that has three quarters of the PDF.

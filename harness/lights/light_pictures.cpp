@@ -6,50 +6,17 @@
 
 #include "image/canvas.h"
 #include "image/metrics.h"
-#include "image/theme.h"
+#include "lights/picture_frame.h"
 
 namespace vsglbench {
 namespace {
 
 // Colours of Okabe and Ito's palette: the colour-blind tell them apart, and both from grey.
 constexpr glm::u8vec3 kPoint{230, 159, 0}, kOutline{86, 180, 233};
-constexpr uint32_t kMargin = 12, kLine = 22;
-constexpr double kText = 16, kLabel = 15;
+constexpr double kLabel = 15;
 constexpr uint32_t kLeastWidth = 1280;  // of a picture
 constexpr uint32_t kRsmEdge = 1024, kMostPixels = 16;
 constexpr size_t kDisks = 96, kLabels = 10;  // of the strongest lights in view
-
-// --- captions ---
-
-std::vector<std::string> wrapped(const std::vector<std::string>& lines, const Font& font, double width) {
-  std::vector<std::string> out;
-  for (const auto& line : lines) {
-    for (const auto& part : font.wrap(line, width)) out.push_back(part);
-  }
-  return out;
-}
-
-// The picture between two blocks of text.
-Bitmap framed(const Bitmap& picture, const std::vector<std::string>& above,
-              const std::vector<std::string>& below) {
-  const Font font(kText);
-  const auto head = wrapped(above, font, picture.width), foot = wrapped(below, font, picture.width);
-  const auto lines = static_cast<uint32_t>(head.size() + foot.size());
-  Canvas out(picture.width + 2 * kMargin, picture.height + 4 * kMargin + lines * kLine, theme().paper);
-  uint32_t y = kMargin;
-  const auto write = [&](const std::vector<std::string>& text, glm::u8vec3 color) {
-    for (const auto& line : text) {
-      out.text({kMargin, y}, line, font, {color});
-      y += kLine;
-    }
-    y += kMargin;
-  };
-  write(head, theme().ink);
-  out.picture(kMargin, y, picture);
-  y += picture.height + kMargin;
-  write(foot, theme().faint);
-  return out.bitmap();
-}
 
 // --- on the RSM ---
 

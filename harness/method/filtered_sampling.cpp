@@ -2,9 +2,20 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 namespace vsglbench {
+namespace {
+
+// Of the buffers of lights with these lobes, in the order of their bindings (shaders/moments_buffers.glsl).
+std::vector<std::string> moment_names(unsigned lobes, Half half) {
+  std::vector<std::string> names = {"places"};
+  if (lobes & DIFFUSE_LOBE) names.insert(names.end(), {"diffuse_powers", "diffuse_directions"});
+  if (lobes & SPECULAR_LOBE) names.insert(names.end(), {"specular_powers", "specular_directions"});
+  for (std::string& name : names) name = fmt::format("moments.{}.{}", name, half_name(half));
+  return names;
+}
+
+}  // namespace
 
 uint32_t pyramid_top(uint32_t width, uint32_t height) {
   uint32_t level = 0;
@@ -29,18 +40,8 @@ MomentPyramid::MomentPyramid(MethodContext& context)
 MomentBuffers MomentPyramid::build(Steps& steps, const Field& field) {
   const uint32_t w = field.emitter.width, h = field.emitter.height;
   MomentBuffers moments;
-  const auto add = [&](const char* what) {
-    moments.buffers.push_back(&context_.scratch(fmt::format("moments.{}.{}", what, half_name(field.half)),
-                                                pyramid_texels(w, h) * 16));
-  };
-  add("places");
-  for (const auto& [lobe, power, direction] :
-       {std::tuple(DIFFUSE_LOBE, "diffuse_powers", "diffuse_directions"),
-        std::tuple(SPECULAR_LOBE, "specular_powers", "specular_directions")}) {
-    if (!(context_.lobes() & lobe)) continue;
-    add(power);
-    add(direction);
-  }
+  for (const std::string& name : moment_names(context_.lobes(), field.half))
+    moments.buffers.push_back(&context_.scratch(name, pyramid_texels(w, h) * 16));
   Recorder& r = steps.recorder();
   steps.pass("resolve", [&] {
     r.dispatch(resolve_, {field.maps, moments}, field.emitter, groups_for(w, 8), groups_for(h, 8));
@@ -53,6 +54,16 @@ MomentBuffers MomentPyramid::build(Steps& steps, const Field& field) {
       r.barrier();
     }
   });
+  return moments;
+}
+
+MomentBuffers built_moments(const MethodContext& context, Half half) {
+  MomentBuffers moments;
+  for (const std::string& name : moment_names(context.lobes(), half)) {
+    const auto used = context.scratch_buffers().find(name);
+    if (used == context.scratch_buffers().end()) return {};
+    moments.buffers.push_back(used->second.buffer);
+  }
   return moments;
 }
 

@@ -32,6 +32,10 @@ class MomentPyramid {
   const Kernel &resolve_, &mip_;
 };
 
+// What build() left of that half in the scratch memory of this context, as the filter read it; no buffers
+// where it was never called there. It lasts as scratch memory does, for one frame.
+MomentBuffers built_moments(const MethodContext& context, Half half);
+
 // A method whose kernel file includes filtered_sampling.glsl; `footprint_size` is K. `defines`: of that file.
 // `carried_bytes`: of each light's state, where the kernel carries one from frame to frame (CARRIED there).
 std::unique_ptr<Method> make_filtered_sampling(MethodContext& context, const std::string& kernel_file,

@@ -163,7 +163,7 @@ std::vector<Trial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit
 std::vector<Trial> trials_of(const std::vector<LightsResult>& lights, const Exhibit& exhibit) {
   std::vector<Trial> out;
   for (const LightsResult& r : lights) {
-    if (!r.edges) continue;
+    if (!r.edges || r.seed != 0) continue;  // the seed that is drawn
     out.push_back(of_edges(r, exhibit, "larger",
                            "Filtering makes larger VSGLs on discontinuous geometry", r.edges->sigma, 1));
     out.push_back(of_edges(r, exhibit, "darker",

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "base/supervise.h"
 #include "lights/light_pictures.h"
+#include "lights/moment_pictures.h"
 #include "method/registry.h"
 #include "report/environment.h"
 #include "run/case_run.h"
@@ -59,7 +60,8 @@ class LightsRun {
         kernels_(device_) {}
 
   // Cases of one scene come one after the other. `begin` is called before each action that may take long.
-  LightsResult run(const Case& c, const std::function<void(const std::string&, double limit_s)>& begin);
+  LightsResult run(const Case& c, uint32_t seed,
+                   const std::function<void(const std::string&, double limit_s)>& begin);
 
  private:
   // A scene on the device, and the PDFs that its cases share.
@@ -70,7 +72,10 @@ class LightsRun {
     Stage stage;
     std::optional<ScenePdfs> pdfs;
   };
-  void draw(Place& place, const Case& c, LightsResult* result);
+  void make(Place& place, const Case& c, LightsResult* result);
+  void draw(Frame& frame, const Scene& scene, const Case& c, const LightSet& lights, LightsResult* result);
+  void write_list(const Case& c, const LightSet& lights, const Scene& scene,
+                  const LightsResult& result) const;
   Json describe(const Case& c, const LightSet& lights, const Scene& scene, const LightsResult& result) const;
   const LightsOptions& options_;
   const Config& config_;
@@ -87,9 +92,9 @@ LightsRun::Place::Place(LightsRun& run, const std::string& scene_name)
   if (run.config_.measure == Measure::generation) pdfs.emplace(stage);
 }
 
-LightsResult LightsRun::run(const Case& c,
+LightsResult LightsRun::run(const Case& c, uint32_t seed,
                             const std::function<void(const std::string&, double limit_s)>& begin) {
-  LightsResult result{.id = c.id};
+  LightsResult result{.id = c.id, .seed = seed};
   const auto failed = [&](ErrorKind kind, const std::string& message) {
     result.status = kind == ErrorKind::asset_missing ? Status::skipped : Status::failed;
     result.error = message;
@@ -101,42 +106,58 @@ LightsResult LightsRun::run(const Case& c,
       place_ = std::make_unique<Place>(*this, c.scene);
     }
     begin("drawing its lights", config_.time_limit_s);
-    draw(*place_, c, &result);
+    make(*place_, c, &result);
   };
   guarded(draw_it, failed);
   return result;
 }
 
-void LightsRun::draw(Place& place, const Case& c, LightsResult* result) {
+void LightsRun::make(Place& place, const Case& c, LightsResult* result) {
   Case unshaded = c;
   unshaded.frame = without_visibility(c.frame);
   require_memory(device_.info(), unshaded);
   Frame frame(place.stage, load_method(c.method, device_.info()), c.method_parameters, unshaded.frame,
               nullptr);
   const KeptPdfs* shared = place.pdfs && frame.uses_importance() ? &place.pdfs->get(unshaded) : nullptr;
-  const LightSet lights = make_lights(frame, options_.seed, shared, unshaded.frame.rsm);
+  const LightSet lights = make_lights(frame, result->seed, shared, unshaded.frame.rsm);
   result->lights = lights.count();
   result->empty = lights.empty();
   result->coverage = coverage_of(lights.shapes, lights.count(), lights.rsm, lights.rsm, lights.pdf);
   result->kernels = kernels_of(lights.shapes, lights.rsm, lights.rsm, lights.pdf);
+  if (!lights.shapes.squares.empty())
+    result->edges = edge_effect(lights.lights, lights.shapes.squares, lights.edges);
+  if (result->seed == options_.seed) draw(frame, place.scene, c, lights, result);
+}
 
-  const Scene& scene = place.scene;
+void LightsRun::draw(Frame& frame, const Scene& scene, const Case& c, const LightSet& lights,
+                     LightsResult* result) {
   result->folder = fs::path(file_name(c.scene)) / file_name(c.method) /
                    file_name(c.id.substr(c.scene.size() + c.method.size() + 2));
   const fs::path folder = out_ / result->folder;
-  const std::vector<std::string> captions = {c.id, fmt::format("seed {}, {} lights, {} without power",
-                                                               options_.seed, result->lights, result->empty)};
+  const std::vector<std::string> captions = {
+      c.id, fmt::format("seed {}, {} lights, {} without power", result->seed, result->lights, result->empty)};
+  // The scratch memory is what generation left: nothing else has run since.
+  if (const auto mips = read_mipmapped_rsm(frame.method_context(), lights.rsm, lights.rsm)) {
+    write_png(folder / "moments.png",
+              draw_moments(*mips, {scene.origin, scene.bounds_min, scene.bounds_max}, captions));
+  }
   const auto fallback = lights.pdf.empty() ? reflectance(frame) : std::vector<float>();
   const View light = light_view(scene.light);
   write_png(folder / "rsm.png", draw_on_rsm(lights, light, fallback, result->coverage, captions));
   write_png(folder / "scene.png", draw_in_scene(lights, camera_view_of(frame, scene), captions));
+  write_list(c, lights, scene, *result);
+}
+
+void LightsRun::write_list(const Case& c, const LightSet& lights, const Scene& scene,
+                           const LightsResult& result) const {
+  const fs::path folder = out_ / result.folder;
   Json list = light_list(lights, scene.origin);
   std::error_code ec;
   if (options_.csv) {
     fs::remove(folder / "lights.json", ec);  // of an earlier run
     write_text(folder / "lights.csv", to_csv(list));
   } else {
-    Json json = describe(c, lights, scene, *result);
+    Json json = describe(c, lights, scene, result);
     json["lights"] = std::move(list);
     fs::remove(folder / "lights.csv", ec);
     write_text(folder / "lights.json", json.dump(1) + "\n");
@@ -158,43 +179,69 @@ Json LightsRun::describe(const Case& c, const LightSet& lights, const Scene& sce
       {"scene", {{"name", c.scene}, {"hash", scene.hash}}},
       {"method", c.method},
       {"parameters", c.parameters},
-      {"seed", options_.seed},
+      {"seed", result.seed},
       {"kind", info_of(lights.lights.kind).name},
       {"count", result.lights},
       {"empty", result.empty}};
   if (result.coverage) json["coverage"] = coverage_json(result);
+  if (result.edges) json["edges"] = to_json(*result.edges);
   return json;
 }
 
 // "" where there is nothing to be written.
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-std::string coverage_csv(const std::vector<LightsResult>& results, uint32_t seed) {
+// Value and interval, three cells.
+void add(std::vector<std::string>* row, const std::optional<Ratio>& ratio) {
+  row->push_back(cell(ratio ? std::optional(ratio->value) : std::nullopt));
+  row->push_back(cell(ratio ? std::optional(ratio->ci95.lo) : std::nullopt));
+  row->push_back(cell(ratio ? std::optional(ratio->ci95.hi) : std::nullopt));
+}
+
+std::string coverage_csv(const std::vector<LightsResult>& results) {
   std::string text =
-      "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap,kernel_largest,kernel_over\n";
+      "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap,kernel_largest,kernel_over,lights_on_edges,lights_off_edges,"
+      "edge_sigma_ratio,edge_sigma_ratio_lo,edge_sigma_ratio_hi,"
+      "edge_density_ratio,edge_density_ratio_lo,edge_density_ratio_hi\n";
   for (const LightsResult& r : results) {
+    const auto written = [](const auto& value) { return fmt::format("{}", value); };
+    std::vector<std::string> row = {r.id, written(r.seed), written(name(r.status)), written(r.lights),
+                                    written(r.empty)};
     const auto& c = r.coverage;
-    const auto of = [&](double Coverage::*value) { return c ? std::optional((*c).*value) : std::nullopt; };
-    const auto kernel = [&](double KernelStats::*value) {
-      return r.kernels ? std::optional((*r.kernels).*value) : std::nullopt;
-    };
-    text += csv_row(r.id, seed, name(r.status), r.lights, r.empty, cell(of(&Coverage::overlap)),
-                    cell(of(&Coverage::gap)), cell(c ? c->pdf_overlap : std::nullopt),
-                    cell(c ? c->pdf_gap : std::nullopt), cell(kernel(&KernelStats::largest)),
-                    cell(kernel(&KernelStats::over)));
+    for (const auto value : {&Coverage::overlap, &Coverage::gap})
+      row.push_back(c ? written((*c).*value) : "");
+    for (const auto value : {&Coverage::pdf_overlap, &Coverage::pdf_gap})
+      row.push_back(cell(c ? (*c).*value : std::nullopt));
+    for (const auto value : {&KernelStats::largest, &KernelStats::over})
+      row.push_back(r.kernels ? written((*r.kernels).*value) : "");
+    const EdgeEffect edges = r.edges.value_or(EdgeEffect{});
+    for (const uint64_t lights : {edges.on, edges.off}) row.push_back(r.edges ? written(lights) : "");
+    add(&row, edges.sigma);
+    add(&row, edges.density);
+    text += csv_row(row);
   }
   return text;
 }
 
+// All seeds of a case one after the other: job = case × seeds + which of them.
+struct Jobs {
+  const std::vector<Case>& cases;
+  uint32_t seed, seeds;
+  size_t count() const { return cases.size() * seeds; }
+  const Case& case_of(size_t job) const { return cases[job / seeds]; }
+  uint32_t seed_of(size_t job) const { return seed + static_cast<uint32_t>(job % seeds); }
+};
+
 // In the worker.
-void draw_cases(const Worker<LightsResult>& worker, const std::vector<Case>& cases,
-                const std::vector<size_t>& left, const LightsOptions& options, const Config& config,
-                const fs::path& out) {
+void draw_cases(const Worker<LightsResult>& worker, const Jobs& jobs, const std::vector<size_t>& left,
+                const LightsOptions& options, const Config& config, const fs::path& out) {
   LightsRun run(options, config, out);
   Progress progress(config.name, left.size());
   for (const size_t job : left) {
-    progress.label(cases[job].id);
-    worker.done(job, run.run(cases[job], [&](const std::string& action, double limit_s) {
+    const Case& c = jobs.case_of(job);
+    const uint32_t seed = jobs.seed_of(job);
+    progress.label(jobs.seeds > 1 ? fmt::format("{}, seed {}", c.id, seed) : c.id);
+    worker.done(job, run.run(c, seed, [&](const std::string& action, double limit_s) {
       worker.now({job, action, limit_s});
     }));
     progress.advance();
@@ -204,16 +251,19 @@ void draw_cases(const Worker<LightsResult>& worker, const std::vector<Case>& cas
 }  // namespace
 
 Json to_json(const LightsResult& result) {
-  Json json = {{"id", result.id},         {"status", static_cast<int>(result.status)},
-               {"error", result.error},   {"folder", result.folder.string()},
-               {"lights", result.lights}, {"empty", result.empty}};
+  Json json = {{"id", result.id},        {"seed", result.seed},
+               {"error", result.error},  {"status", static_cast<int>(result.status)},
+               {"empty", result.empty},  {"folder", result.folder.string()},
+               {"lights", result.lights}};
   if (result.coverage) json["coverage"] = part_to_json(*result.coverage);
   if (result.kernels) json["kernels"] = part_to_json(*result.kernels);
+  if (result.edges) json["edges"] = to_json(*result.edges);
   return json;
 }
 
 void from_json(const Json& json, LightsResult* result) {
   result->id = json.at("id");
+  result->seed = json.at("seed");
   result->status = json.at("status").get<Status>();
   result->error = json.at("error");
   result->folder = json.at("folder").get<std::string>();
@@ -221,6 +271,7 @@ void from_json(const Json& json, LightsResult* result) {
   result->empty = json.at("empty");
   if (json.contains("coverage")) result->coverage = part_from_json<Coverage>(json["coverage"]);
   if (json.contains("kernels")) result->kernels = part_from_json<KernelStats>(json["kernels"]);
+  if (json.contains("edges")) result->edges = edge_effect_from(json.at("edges"));
 }
 
 LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32_t rsm) {
@@ -236,6 +287,11 @@ LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32
   if (const auto bad = frame.results().bad_values()) throw fail(ErrorKind::case_failed, "{}", bad->message());
   set.lights = frame.results().lights();
   set.shapes = read_shapes(frame.light_shapes(), set.count(), texels);
+  if (!set.shapes.squares.empty()) {
+    const TexelSurfaces surfaces = surfaces_of(frame.light(), download_map(frame.rsm().maps[0]),
+                                               download_map(frame.rsm().geometric_normals()));
+    set.edges = footprint_edges(surfaces, set.shapes.squares);
+  }
   if (uses_pdf) set.pdf = pdfs.rsm.download<float>(texels);
   return set;
 }
@@ -243,6 +299,7 @@ LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32
 std::vector<LightsResult> run_lights(const LightsOptions& options) {
   const Config config = load_config(options.config, Json::object(), options.scale);
   const std::vector<Case> cases = select_cases(config.cases, options.cases, "--case");
+  const Jobs jobs{cases, options.seed, options.seeds};
   const fs::path out =
       fs::absolute(options.out.empty() ? fs::path("reports") / "out" / config.name / "lights" : options.out);
   ensure_writable_directory(out);
@@ -250,22 +307,24 @@ std::vector<LightsResult> run_lights(const LightsOptions& options) {
   const auto take = [&](const LightsResult& result) { results.push_back(result); };
   supervise<LightsResult>(
       {.name = config.name,
-       .jobs = cases.size(),
-       .work =
-           [&](const Worker<LightsResult>& worker, const std::vector<size_t>& left) {
-             draw_cases(worker, cases, left, options, config, out);
-           },
+       .jobs = jobs.count(),
+       .work = [&](const Worker<LightsResult>& worker,
+                   const std::vector<size_t>& left) { draw_cases(worker, jobs, left, options, config, out); },
        .told = take,
        .lost =
            [&](size_t job, const End& end) {
              if (end.kind == ErrorKind::device && results.empty()) throw Error(end.kind, end.how);
-             take({.id = cases[job].id, .status = Status::failed, .error = one_line(end.message())});
+             take({.id = jobs.case_of(job).id,
+                   .seed = jobs.seed_of(job),
+                   .status = Status::failed,
+                   .error = one_line(end.message())});
            },
        .died =
            [&](const End& end) {
-             log_warning("{}: {}", end.task.job ? cases[*end.task.job].id : config.name, end.message());
+             log_warning("{}: {}", end.task.job ? jobs.case_of(*end.task.job).id : config.name,
+                         end.message());
            }});
-  write_text(out / "coverage.csv", coverage_csv(results, options.seed));
+  write_text(out / "coverage.csv", coverage_csv(results));
   return results;
 }
 

@@ -22,20 +22,24 @@ struct LightsOptions {
   std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
   std::vector<std::string> cases;  // globs over their ids; empty: all
   std::string device;              // as in select_device()
-  uint32_t seed = 0;
-  bool csv = false;  // lights.csv instead of lights.json
+  uint32_t seed = 0;               // whose lights are drawn and listed
+  uint32_t seeds = 1;              // coverage.csv has this many from there on
+  bool csv = false;                // lights.csv instead of lights.json
   std::vector<std::string> argv;
 };
 
-// What became of one case. `folder` below the output folder holds rsm.png, scene.png and the list.
+// What became of one case with one seed. Of the first seed, `folder` below the output folder holds rsm.png,
+// scene.png, moments.png where the method filters the RSM by its mips, and the list.
 struct LightsResult {
   std::string id;
+  uint32_t seed = 0;
   Status status = Status::ok;
   std::string error;  // one line, where it is not ok
   std::filesystem::path folder;
   uint64_t lights = 0, empty = 0;
   std::optional<Coverage> coverage;
   std::optional<KernelStats> kernels;
+  std::optional<EdgeEffect> edges;  // of a method with square footprints
 };
 
 // As messages of the process that draws.
@@ -48,10 +52,10 @@ void from_json(const Json& json, LightsResult* result);
 // Error(case_failed) for lights with a NaN or Inf.
 LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32_t rsm);
 
-// Draws and writes each case, and a row for each in coverage.csv. A case that fails, crashes or
-// hangs (Config::time_limit_s), or whose scene is not on this machine, costs itself. For a process without
-// threads and without a Vulkan device: it forks. Throws Error for what stops all: config, cases, output
-// folder, device.
+// Draws and writes each case with the first seed, and a row for each case and seed in coverage.csv. A case
+// that fails, crashes or hangs (Config::time_limit_s), or whose scene is not on this machine, costs itself.
+// For a process without threads and without a Vulkan device: it forks. Throws Error for what stops all:
+// config, cases, output folder, device.
 std::vector<LightsResult> run_lights(const LightsOptions& options);
 
 }  // namespace vsglbench

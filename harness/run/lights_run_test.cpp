@@ -5,12 +5,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <map>
 
 #include "base/file.h"
 #include "image/exr.h"
+#include "lights/moment_pictures.h"
+#include "method/oracle.h"
 #include "method/registry.h"
 #include "run/scene_pdfs.h"
 #include "scene/scene_file.h"
@@ -175,6 +179,114 @@ TEST_P(LightsRunTest, LightsAreThoseOfTheFrame) {
     EXPECT_TRUE(f.results().lights() == set.lights) << method;
     EXPECT_EQ(set.pdf, f.results().importance()) << method;
   }
+}
+
+// The RSM as rendered, for the oracle.
+oracle::Half half_of(const Frame& frame) {
+  oracle::Half half{.emitter = frame.light()};
+  const auto map = [&](const DeviceImage& image) {
+    return image ? download_map(image)
+                 : std::vector<glm::vec4>(size_t(half.emitter.width) * half.emitter.height, glm::vec4(0));
+  };
+  const auto& maps = frame.rsm().maps;
+  const auto positions = map(maps[0]), normals = map(maps[1]), faces = map(frame.rsm().geometric_normals()),
+             diffuse = map(maps[3]), f0 = map(maps[4]);
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const glm::vec3 position(positions[i]);
+    const glm::vec3 view =
+        half.emitter.perspective ? glm::normalize(half.emitter.position - position) : -half.emitter.forward;
+    glm::vec3 normal(normals[i]);
+    // Normals of faces are bent when they are read (shaders/shading_normal.glsl).
+    const float cosine = glm::dot(normal, view);
+    if (!maps[2] && cosine < 0.01f) normal = glm::normalize(normal + (0.01f - cosine) * view);
+    half.texels.push_back({.position = position,
+                           .normal = normal,
+                           .geometric_normal = glm::vec3(faces[i]),
+                           .diffuse = glm::vec3(diffuse[i]),
+                           .f0 = glm::vec3(f0[i]),
+                           .ndf = maps[4] ? normals[i].w : 1.0f,
+                           .surface = positions[i].w > 0});
+  }
+  return half;
+}
+
+// [MFIS16 Fig. 4] shows what filtered sampling read of this scene, not what another frame or half left.
+TEST_P(LightsRunTest, MomentsAreMeansOverTheRsmsTexels) {
+  Frame f = frame("mfis");
+  make_lights(f, 0, nullptr, small().rsm);
+  const auto rsm = read_mipmapped_rsm(f.method_context(), small().rsm, small().rsm);
+  ASSERT_TRUE(rsm);
+  const oracle::Half half = half_of(f);
+  std::vector<oracle::Sums> texels;
+  for (uint32_t i = 0; i < small().rsm * small().rsm; ++i)
+    texels.push_back(oracle::texel_sums(half, i % small().rsm, i / small().rsm));
+  // Blocks that tile each level: 1, 8, 64 and all 128 texels a side.
+  for (const uint32_t l : {0u, 3u, 6u, 7u}) {
+    const MomentLevel& level = rsm->levels.at(l);
+    std::vector<oracle::Sums> sums(level.texels.size());
+    for (uint32_t i = 0; i < texels.size(); ++i)
+      sums[((i / small().rsm) >> l) * level.width + ((i % small().rsm) >> l)].add(texels[i],
+                                                                                  std::exp2(-2.0 * l));
+    size_t lit = 0;
+    for (size_t i = 0; i < sums.size(); ++i) {
+      const double diffuse = oracle::luminance(sums[i].diffuse),
+                   specular = oracle::luminance(sums[i].specular), all = diffuse + specular;
+      SCOPED_TRACE(fmt::format("level {}, texel {}", l, i));
+      const MomentTexel& t = level.texels[i];
+      ASSERT_NEAR(luminance(t.diffuse + t.specular), all, 1e-5 * all);
+      if (!(all > 0)) continue;
+      ++lit;
+      ASSERT_LT(glm::length(glm::dvec3(t.position) - sums[i].position / all), 1e-4);
+      ASSERT_NEAR(t.square, sums[i].square / all, 1e-4 * std::max(1.0, sums[i].square / all));
+      if (diffuse > 0)
+        ASSERT_LT(glm::length(glm::dvec3(t.diffuse_direction) - sums[i].diffuse_direction / diffuse), 1e-4);
+      if (specular > 0)
+        ASSERT_LT(glm::length(glm::dvec3(t.specular_direction) - sums[i].specular_direction / specular),
+                  1e-4);
+    }
+    EXPECT_GT(lit, 0u);
+  }
+  Frame clusters = frame("kmeans2d");
+  make_lights(clusters, 0, nullptr, small().rsm);
+  EXPECT_FALSE(read_mipmapped_rsm(clusters.method_context(), small().rsm, small().rsm));
+}
+
+// [VSGL14 Fig. 2]: what is larger on edges is so beside what its own square spans elsewhere.
+TEST_P(LightsRunTest, LightsOnEdgesAreLarger) {
+  Frame f = frame("mfis");
+  const LightSet set = make_lights(f, 0, nullptr, small().rsm);
+  ASSERT_EQ(set.edges.size(), set.count());
+  for (const FootprintEdges& e : set.edges) EXPECT_TRUE(e.share >= 0 && e.share <= 1) << e.share;
+  const EdgeEffect effect = edge_effect(set.lights, set.shapes.squares, set.edges);
+  EXPECT_GT(effect.on + effect.off, 0u);
+  if (!effect.sigma) GTEST_SKIP() << effect.on << " lights on edges, " << effect.off << " off them";
+  RecordProperty("sigma_ratio", fmt::format("{:.3f}", effect.sigma->value));
+  RecordProperty("density_ratio", fmt::format("{:.3f}", effect.density->value));
+  EXPECT_GT(effect.sigma->value, 1);
+}
+
+// Over the process boundary nothing is lost.
+TEST(LightsResultJson, IsReadAsWritten) {
+  const LightsResult all{.id = "a/b/c",
+                         .seed = 7,
+                         .status = Status::ok,
+                         .folder = "a/b/c",
+                         .lights = 9,
+                         .empty = 2,
+                         .coverage = Coverage{0.5, 0.25, 0.125, 0.0625},
+                         .edges = EdgeEffect{3, 4, Ratio{1.5, {1.25, 1.75}}, Ratio{0.5, {0.25, 0.75}}}};
+  LightsResult read;
+  from_json(Json::parse(to_json(all).dump()), &read);
+  EXPECT_EQ(read.seed, 7u);
+  EXPECT_EQ(read.edges->on, 3u);
+  EXPECT_EQ(read.edges->off, 4u);
+  EXPECT_EQ(read.edges->sigma->ci95.hi, 1.75);
+  EXPECT_EQ(read.edges->density->value, 0.5);
+  EXPECT_EQ(to_json(read), to_json(all));
+  const LightsResult few{.id = "a", .edges = EdgeEffect{1, 2, std::nullopt, std::nullopt}};
+  from_json(to_json(few), &(read = {}));
+  EXPECT_EQ(read.edges->off, 2u);
+  EXPECT_FALSE(read.edges->sigma || read.edges->density || read.coverage);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LightsRunTest, ::testing::Values("cornell", "ring514", "colonnade"));
