@@ -34,6 +34,8 @@ class FrameReadback {
 
   Image indirect() const;
   ShadingNotes shading_notes() const;
+  // Whether the notes have a cancellation rate.
+  bool reduces_bias() const { return parts_.shade.reduces_bias(); }
   std::vector<uint8_t> surface_mask() const;  // 1 where the camera sees a surface
   LightRecords lights() const { return parts_.lights.read(); }
   std::vector<float> importance() const;  // the PDF on the RSM, of any scale; empty when unused

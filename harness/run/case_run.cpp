@@ -144,19 +144,31 @@ void CaseRun::look() {
 void CaseRun::look_at(uint32_t seed) {
   render(seed, true);
   const bool has_image = config_.measure == Measure::frame;
-  if (has_image && !scoring_)
-    scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference));
+  if (has_image && !scoring_) start_scoring();
   Image image;
   if (has_image) image = frame_->results().indirect();
   if (has_image) check_health_of(image);
   if (!has_image) result_.health.emplace();
   check_lights();
   const double flux = check_flux();
-  if (has_image) result_.seeds.push_back({seed, {}, *texel_power_ > 0 ? std::optional(flux) : std::nullopt});
+  // Only what shades with exact BRDFs has more to say of other seeds than of the first.
+  ShadingNotes notes;
+  if (has_image && (seed == 0 || frame_->results().reduces_bias())) notes = frame_->results().shading_notes();
+  if (has_image) {
+    result_.seeds.push_back({.seed = seed,
+                             .flux = *texel_power_ > 0 ? std::optional(flux) : std::nullopt,
+                             .cancellation_rate = notes.cancellation_rate});
+  }
   if (seed == 0) describe_lights();
-  if (seed == 0 && has_image) describe_shading();
+  if (seed == 0 && has_image) describe_shading(std::move(notes));
   if (seed == 0 && has_image) first_image_ = image;
   if (has_image) scoring_->add(seed, std::move(image));
+}
+
+void CaseRun::start_scoring() {
+  const auto crop =
+      input_.region ? pixels_of(*input_.region, case_.frame.width, case_.frame.height) : std::nullopt;
+  scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference), crop);
 }
 
 void CaseRun::settle() {
@@ -167,7 +179,13 @@ void CaseRun::settle() {
     if (!scoring_) return;
     std::ranges::sort(result_.seeds, {}, &SeedResult::seed);
     const std::vector<SeedScore> scores = scoring_->collect();
-    for (size_t i = 0; i < scores.size(); ++i) result_.seeds[i].errors = scores[i].errors;
+    for (size_t i = 0; i < scores.size(); ++i) {
+      SeedResult& seed = result_.seeds[i];
+      seed.errors = scores[i].errors;
+      seed.detail = scores[i].detail;
+      seed.spikes = scores[i].spikes;
+      seed.region = scores[i].region;
+    }
     result_.accuracy = accuracy_over_seeds(result_.seeds, *input_.reference_info);
     if (scoring_->flip_exposures()) state_exposures(*scoring_->flip_exposures(), &result_.accuracy->flip);
     result_.accuracy->quantiles = scores.front().quantiles;
@@ -325,8 +343,7 @@ void CaseRun::describe_lights() {
   }
 }
 
-void CaseRun::describe_shading() {
-  ShadingNotes notes = frame_->results().shading_notes();
+void CaseRun::describe_shading(ShadingNotes notes) {
   if (notes.clamp_removed || notes.cancellation_rate)
     result_.shading = ShadingResult{notes.clamp_removed, notes.cancellation_rate};
   cancellation_ = std::move(notes.cancellation);

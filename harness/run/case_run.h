@@ -15,6 +15,7 @@
 #include "run/case_progress.h"
 #include "run/config.h"
 #include "run/scoring.h"
+#include "scene/region.h"
 
 namespace vsglbench {
 
@@ -22,6 +23,7 @@ namespace vsglbench {
 struct CaseInput {
   const ReferenceResult* reference = nullptr;     // that matches its visibility, for whole frames
   const ReferenceInfo* reference_info = nullptr;  // of that reference
+  std::optional<Region> region;                   // of the view
   const KeptPdfs* pdfs = nullptr;                 // for generation alone
   ExactVisibility exact;
 };
@@ -42,6 +44,8 @@ class CaseRun {
   void look();
   // Waits for the errors.
   void settle();
+  // The view has a region, and no pixel of it counts; once the images are looked at by this process.
+  bool misses_region() const { return input_.region && scoring_ && !scoring_->has_region(); }
   bool scored() const { return scored_; }  // looked at and settled, by this process or by another
   // Everything but times, once it is settled; the images are the caller's to add.
   ScoredCase score() const { return {result_, rays_ms_}; }
@@ -105,6 +109,7 @@ class CaseRun {
   template <class Render>
   FrameTimes run_frame(bool watched, const Render& render);
   void look_at(uint32_t seed);
+  void start_scoring();
   Mask make_mask(const ReferenceResult& reference) const;
   void check_health_of(const Image& image);
   void check_memory();
@@ -113,7 +118,7 @@ class CaseRun {
   void check_passes();
   void record(const FrameTimes& times, double elapsed_s);
   void describe_lights();
-  void describe_shading();
+  void describe_shading(ShadingNotes notes);
 
   Case case_;
   const Config& config_;

@@ -83,6 +83,29 @@ TEST_F(ResumeTest, ForceAndAnotherExperimentStartAnewAndLoseNothing) {
   EXPECT_EQ(report().cases.at(0).parameters.at("rsm"), 8);
 }
 
+// Errors in one region and in another under one name would look alike.
+TEST_F(ResumeTest, AnotherRegionIsAnotherScene) {
+  Json scene = square_scene();
+  scene["views"]["front"]["region"] = {0.25, 0.5, 1, 1};
+  config_["scenes"] = {write_scene("parted", scene, box_gltf().dump())};
+  config_["N"] = {8, 16};
+  const auto stop = [&] {
+    Report stopped = report();
+    stopped.complete = false;
+    stopped.cases.pop_back();
+    write_report(out_ / "report.json", stopped);
+  };
+  ASSERT_EQ(run().exit_code, 0);
+  stop();
+  EXPECT_EQ(run().exit_code, 0);
+  stop();
+  scene["views"]["front"]["region"] = {0.5, 0.5, 1, 1};
+  write_scene("parted", scene, box_gltf().dump());
+  EXPECT_NE(run().exit_code, 0);
+  ASSERT_EQ(report().cases.size(), 2u);
+  EXPECT_TRUE(contains(report().cases[1].error->message, "the scene has changed"));
+}
+
 TEST_F(ResumeTest, ADamagedReportIsKeptAside) {
   write_text(out_ / "report.json", "{\"schema\": \"vsgl");
   EXPECT_EQ(run().exit_code, 0);

@@ -239,6 +239,71 @@ TEST_F(RunTest, ASceneByPathCannotWriteElsewhere) {
   EXPECT_TRUE(fs::exists(out_ / r.cases.at(0).images.at("indirect")));
 }
 
+// From the files alone, by the channel A of pixels that count.
+TEST_F(RunTest, ErrorsInTheViewsRegionAreInTheReport) {
+  Json scene = square_scene();
+  scene["views"]["front"]["region"] = {0.25, 0.5, 1, 1};
+  config_["scenes"] = {write_scene("parted", scene, box_gltf().dump())};
+  EXPECT_EQ(run().exit_code, 0);
+  expect_sound(out_ / "report.json");
+  const Report r = report();
+  EXPECT_EQ(r.scenes.at(0).region, (Crop{8, 9, 24, 9}));
+  EXPECT_EQ(r.scenes[0].warnings, std::vector<std::string>());
+  const CaseResult& c = r.cases.at(0);
+  const ExrLayers x = read_exr_layers(out_ / c.images.at("indirect")),
+                  y = read_exr_layers(out_ / c.images.at("reference"));
+  double sum = 0, values = 0;
+  for (size_t i = 0; i < 32 * 18; ++i) {
+    if (i % 32 < 8 || i / 32 < 9 || x.scalars.at("A")[i] != 1 || y.scalars.at("A")[i] != 1) continue;
+    for (int k = 0; k < 3; ++k) {
+      const double d = double(x.colors.at("").pixels[i][k]) - y.colors.at("").pixels[i][k];
+      sum += d * d;
+      values += 1;
+    }
+  }
+  ASSERT_EQ(c.seeds.size(), 2u);
+  for (const SeedResult& seed : c.seeds) {
+    ASSERT_TRUE(seed.region);
+    EXPECT_NE(seed.region->rmse, seed.errors.rmse);
+    EXPECT_TRUE(seed.detail && seed.region->detail && seed.region->bias && seed.spikes);
+  }
+  EXPECT_NEAR(c.seeds[0].region->rmse, std::sqrt(sum / values), 1e-9);
+  EXPECT_NE(c.seeds[0].region->rmse, c.seeds[1].region->rmse);
+}
+
+// The camera sees past the box there: the case is sound, and the scene says why it has no such errors.
+TEST_F(RunTest, ARegionWithoutASurfaceIsAWarning) {
+  Json scene = square_scene();
+  scene["views"]["front"]["region"] = {0, 0.4, 0.05, 0.6};
+  config_["scenes"] = {write_scene("parted", scene, box_gltf().dump())};
+  EXPECT_EQ(run().exit_code, 0);
+  expect_sound(out_ / "report.json");
+  const Report r = report();
+  EXPECT_EQ(r.scenes.at(0).region, (Crop{0, 7, 2, 4}));
+  ASSERT_EQ(r.scenes[0].warnings.size(), 1u);
+  EXPECT_TRUE(contains(r.scenes[0].warnings[0], "no surface in the view's region at 32x18"));
+  for (const SeedResult& seed : r.cases.at(0).seeds) EXPECT_TRUE(!seed.region && seed.detail);
+}
+
+TEST_F(RunTest, EverySeedHasItsCancellationRate) {
+  config_["methods"] = {{{"method", "mfis"}, {"bias_reduction", {0, 0.1}}}};
+  config_["scenes"] = {"cornell-glossy"};
+  EXPECT_EQ(run().exit_code, 0);
+  expect_sound(out_ / "report.json");
+  const Report r = report();
+  ASSERT_EQ(r.cases.size(), 2u);
+  for (const CaseResult& c : r.cases) {
+    ASSERT_EQ(c.seeds.size(), 2u);
+    const bool reduces = c.parameters.value("bias_reduction", 0.0) > 0;
+    for (const SeedResult& seed : c.seeds) EXPECT_EQ(seed.cancellation_rate.has_value(), reduces) << c.id;
+    if (!reduces) continue;
+    EXPECT_EQ(c.seeds[0].cancellation_rate, c.shading->cancellation_rate);
+    EXPECT_NE(c.seeds[0].cancellation_rate, c.seeds[1].cancellation_rate);
+    EXPECT_GT(*c.seeds[1].cancellation_rate, 0);
+    EXPECT_LT(*c.seeds[1].cancellation_rate, 1);
+  }
+}
+
 TEST_F(RunTest, AnotherRunInTheSameFolderIsRefused) {
   fs::create_directories(out_);
   const int lock = ::open(out_.c_str(), O_RDONLY | O_DIRECTORY);

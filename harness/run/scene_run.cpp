@@ -36,6 +36,7 @@ class SceneRun {
   CaseInput input_of(CaseRun& run);
   void look_at_all(const std::vector<Case>& cases);
   void settle(CaseRun& run);
+  void warn_of_region(const Case& c);
   void look_at_motion();
   bool add_twin();
   void conclude(CaseRun& run);
@@ -71,13 +72,21 @@ bool has_images(const SceneOutcome& outcome) {
          });
 }
 
-SceneReport describe(const Scene& scene, const std::string& name) {
+// In the frame of the scene's first case; whole frames alone have errors to tell in it.
+std::optional<Crop> region_of(const Scene& scene, const std::string& name, const Config& config) {
+  const auto first = std::ranges::find(config.cases, name, &Case::scene);
+  if (!scene.region || config.measure != Measure::frame || first == config.cases.end()) return std::nullopt;
+  return pixels_of(*scene.region, first->frame.width, first->frame.height);
+}
+
+SceneReport describe(const Scene& scene, const std::string& name, const Config& config) {
   SceneReport report;
   report.name = name;
   report.hash = scene.hash;
   report.triangles = scene.triangles.size();
   report.warnings = scene.warnings;
   report.light_flux = frustum_flux(scene.light);
+  report.region = region_of(scene, name, config);
   return report;
 }
 
@@ -116,6 +125,7 @@ CaseInput SceneRun::input_of(CaseRun& run) {
     observer_.now({c.id, "computing its reference", false});
     input.reference = &truth_->references.get(c);
     input.reference_info = &truth_->references.info(c);
+    input.region = scene_.region;
   }
   input.exact = [this, &run](const std::vector<LightPoint>& lights) {
     return run.rest_limit([&] { return truth_->visibility.trace(*run.frame(), lights); });
@@ -182,8 +192,19 @@ void SceneRun::settle(CaseRun& run) {
   images_.finish(run);
   if (run.failed()) return conclude(run);
   if (earlier) return;
+  if (run.misses_region()) warn_of_region(run.description());
   observer_.described(report_);
   observer_.scored(run.score());
+}
+
+// Once for each size of frame.
+void SceneRun::warn_of_region(const Case& c) {
+  const std::string warning =
+      fmt::format("the camera sees no surface in the view's region at {}x{}; errors in it are not told",
+                  c.frame.width, c.frame.height);
+  if (std::ranges::count(report_.warnings, warning) > 0) return;
+  report_.warnings.push_back(warning);
+  log_warning("{}: {}", report_.name, warning);
 }
 
 // All of a scene's cases at once, frame by frame.
@@ -321,13 +342,17 @@ void run_scene(Device& device, KernelLibrary& kernels, const std::string& name, 
   const auto run = [&] {
     observer.now({"", "loading the scene", false});
     Scene scene = load_scene(name, options.scenes);
-    SceneReport report = describe(scene, name);
-    if (earlier.scene && earlier.scene->hash != report.hash) {
+    SceneReport report = describe(scene, name, config);
+    const std::optional<Crop> region = report.region;
+    // Cases from before the view had a region have no errors in it, and none that are wrong.
+    const bool other_region = earlier.scene && earlier.scene->region && earlier.scene->region != region;
+    if (earlier.scene && (earlier.scene->hash != report.hash || other_region)) {
       throw fail(ErrorKind::scene,
                  "{}: the scene has changed since its first cases were measured; start anew with --force",
                  name);
     }
     if (earlier.scene) report = *earlier.scene;
+    report.region = region;
     log_info("{}: {} triangles", name, scene.triangles.size());
     for (const auto& warning : scene.warnings) log_warning("{}: {}", name, warning);
     observer.described(report);

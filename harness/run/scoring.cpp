@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "image/detail.h"
+#include "image/spikes.h"
+
 namespace vsglbench {
 namespace {
 
@@ -9,15 +12,32 @@ namespace {
 constexpr uint64_t kFlipPixelsOfEverySeed = 600'000;
 constexpr size_t kOpenBytes = size_t{256} << 20;
 
+// Nothing without halves of the reference, which alone tell its detail from its noise.
+std::optional<double> detail_of(const Image& x, const Image& half0, const Image& half1, const Mask& mask) {
+  if (half0.pixels.empty() || half1.pixels.empty()) return std::nullopt;
+  DetailMeter meter;
+  meter.add(x, half0, half1, mask);
+  const auto detail = meter.finish();
+  return detail ? std::optional(detail->value) : std::nullopt;
+}
+
 }  // namespace
 
-Scoring::Scoring(const ReferenceResult& reference, Mask mask)
+Scoring::Scoring(const ReferenceResult& reference, Mask mask, const std::optional<Crop>& region)
     : reference_(reference),
       mask_(std::move(mask)),
       exposures_(vsglbench::flip_exposures(reference.mean, mask_)) {
+  if (region) take_region(*region);
   if (!exposures_) return;
   flip_ =
       std::async(std::launch::async, [this] { return FlipReference(reference_.mean, mask_, *exposures_); });
+}
+
+// Where no pixel counts there is no region.
+void Scoring::take_region(const Crop& crop) {
+  Mask mask = crop_mask(mask_, reference_.mean.width, crop);
+  const bool any = mask.empty() || std::ranges::any_of(mask, [](uint8_t kept) { return kept != 0; });
+  if (any) region_ = Part{crop, std::move(mask)};
 }
 
 void Scoring::add(uint64_t seed, Image image) {
@@ -28,14 +48,28 @@ void Scoring::add(uint64_t seed, Image image) {
 }
 
 SeedScore Scoring::score(uint64_t seed, const Image& image) const {
-  SeedScore score{seed, measure_errors(image, reference_.mean, mask_), std::nullopt};
+  SeedScore score{.seed = seed, .errors = measure_errors(image, reference_.mean, mask_)};
   if (seed == 0) score.quantiles = error_quantiles(image, reference_.mean, mask_);
+  score.detail = detail_of(image, reference_.half[0], reference_.half[1], mask_);
+  score.spikes = spike_share(image, reference_.mean, mask_);
+  if (region_) score.region = score_region(image);
   const bool every_seed = exposures_ && image.pixels.size() * exposures_->count <= kFlipPixelsOfEverySeed;
   if (!exposures_ || (seed > 0 && !every_seed)) return score;
   const FlipErrors flip = flip_.get().compare(image);
   score.errors.flip = flip.mean;
   score.errors.flip_p99 = flip.p99;
   return score;
+}
+
+// Gradients across its border belong to neither side.
+RegionErrors Scoring::score_region(const Image& image) const {
+  const auto part_of = [this](const Image& of) {
+    return of.pixels.empty() ? Image() : crop_image(of, region_->crop);
+  };
+  const Image part = part_of(image);
+  const Errors errors = measure_errors(part, part_of(reference_.mean), region_->mask);
+  return {errors.smape, errors.rmse, errors.bias,
+          detail_of(part, part_of(reference_.half[0]), part_of(reference_.half[1]), region_->mask)};
 }
 
 void Scoring::take_oldest() {

@@ -6,9 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "image/crop.h"
 #include "image/flip.h"
 #include "image/metrics.h"
 #include "reference/reference.h"
+#include "report/report.h"
 
 namespace vsglbench {
 
@@ -17,27 +19,37 @@ struct SeedScore {
   uint64_t seed = 0;
   Errors errors;
   std::optional<ErrorQuantiles> quantiles;  // of seed 0
+  std::optional<double> detail, spikes;     // as SeedResult's
+  std::optional<RegionErrors> region;
 };
 
 class Scoring {
  public:
   // `reference` outlives it. FLIP looks at an image once an exposure: where that takes long, it is measured
-  // for seed 0 alone.
-  Scoring(const ReferenceResult& reference, Mask mask);
+  // for seed 0 alone. `region`: where errors are also measured by themselves.
+  Scoring(const ReferenceResult& reference, Mask mask, const std::optional<Crop>& region = std::nullopt);
   // Starts. Waits while more images are open than memory should hold.
   void add(uint64_t seed, Image image);
   // Waits for all of them; by seed. Throws what measuring threw.
   std::vector<SeedScore> collect();
 
   const Mask& mask() const { return mask_; }
+  bool has_region() const { return region_.has_value(); }  // and a pixel of it counts
   // Nothing for a black reference.
   const std::optional<FlipExposures>& flip_exposures() const { return exposures_; }
 
  private:
+  struct Part {
+    Crop crop;
+    Mask mask;  // of that part
+  };
   SeedScore score(uint64_t seed, const Image& image) const;
+  RegionErrors score_region(const Image& image) const;
+  void take_region(const Crop& crop);
   void take_oldest();
   const ReferenceResult& reference_;
   Mask mask_;
+  std::optional<Part> region_;
   std::optional<FlipExposures> exposures_;
   std::shared_future<FlipReference> flip_;  // not valid for a black reference
   std::deque<std::future<SeedScore>> open_;
