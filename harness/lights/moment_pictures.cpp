@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "image/canvas.h"
@@ -184,8 +185,12 @@ void draw_panel(Canvas& canvas, glm::uvec2 at, const Panel& panel, const Mipmapp
   }
 }
 
+// What is nothing beside the largest component is a 0.
 std::string vector_text(const glm::dvec3& v) {
-  return fmt::format("({:.3g}, {:.3g}, {:.3g})", v.x, v.y, v.z);
+  const glm::dvec3 size = glm::abs(v);
+  const double least = 1e-6 * std::max({size.x, size.y, size.z});
+  const auto component = [&](double c) { return std::abs(c) > least ? c : 0; };
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", component(v.x), component(v.y), component(v.z));
 }
 
 std::vector<std::string> legend(const MipmappedRsm& rsm, const SceneBox& box, const Layout& layout) {
