@@ -127,7 +127,8 @@ TEST(Claims, NoTooLargeKernelIsFewerThanSome) {
   r.add(made("b", 64, 10));
   for (CaseResult& c : r.report.cases) {
     c.generate.emplace().lights = 64;
-    for (SeedResult& s : c.seeds) s.kernels = KernelStats{.largest = 1, .over = c.method == "a" ? 0 : 3.5 / 64};
+    for (SeedResult& s : c.seeds)
+      s.kernels = KernelStats{.largest = 1, .over = c.method == "a" ? 0 : 3.5 / 64};
   }
   PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
   claim.metrics = {"kernel_over"};

@@ -29,8 +29,8 @@ int print(const std::vector<LightsResult>& results) {
       continue;
     }
     const auto& c = r.coverage;
-    fmt::print("{:<{}}  {:>4}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}  {:>9}\n", r.id, width, r.seed, r.lights - r.empty,
-               c ? number(c->overlap) : "-", c ? number(c->gap) : "-",
+    fmt::print("{:<{}}  {:>4}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}  {:>9}\n", r.id, width, r.seed,
+               r.lights - r.empty, c ? number(c->overlap) : "-", c ? number(c->gap) : "-",
                number(c ? c->pdf_overlap : std::nullopt), number(c ? c->pdf_gap : std::nullopt),
                r.kernels ? number(r.kernels->largest) : "-");
   }
@@ -111,7 +111,8 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
   command->add_option("--format", *format, "of the list of lights")
       ->check(CLI::IsMember({"json", "csv"}))
       ->capture_default_str();
-  command->add_option("--scale", options->scale, "of the config's scales, such as quick: its keys replace the config's");
+  command->add_option("--scale", options->scale,
+                      "of the config's scales, such as quick: its keys replace the config's");
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device,
                       "Vulkan device: index, UUID, PCI address or part of its name");

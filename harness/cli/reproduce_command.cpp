@@ -61,8 +61,7 @@ std::optional<Json> papers_at(const fs::path& file) {
 // The page anew, with what an earlier one of the device has of other exhibits.
 class Page {
  public:
-  Page(const ReproduceCommand& command, const std::vector<Exhibit>& all)
-      : command_(command), all_(all) {}
+  Page(const ReproduceCommand& command, const std::vector<Exhibit>& all) : command_(command), all_(all) {}
 
   void add(const Json& exhibit) {
     if (!exhibit.contains("device")) return;  // nothing of it was made
@@ -77,12 +76,13 @@ class Page {
  private:
   void open(const Json& of) {
     const std::string device = of.at("name");
-    const fs::path kept = command_.page.empty() ? fs::path("reports") / "papers" / folder_name(device) : command_.page;
+    const fs::path kept =
+        command_.page.empty() ? fs::path("reports") / "papers" / folder_name(device) : command_.page;
     committed_ = papers_at(command_.against.empty() ? kept / "papers.json" : command_.against);
     folder_ = command_.check ? command_.out / "page" : kept;
     if (!command_.check && command_.against.empty()) earlier_ = committed_.value_or(Json::object());
-    papers_ = {{"schema", kPapersSchema}, {"argv", command_.work.argv}, {"device", of},
-               {"exhibits", Json::array()}};
+    papers_ = {
+        {"schema", kPapersSchema}, {"argv", command_.work.argv}, {"device", of}, {"exhibits", Json::array()}};
   }
   void write() {
     Json all = merged(earlier_, papers_, all_);
@@ -105,8 +105,8 @@ class Page {
 };
 
 void print_trials(const Json& exhibit) {
-  fmt::print("{} {} ({:.0f} s)\n", exhibit.at("name").get<std::string>(), exhibit.at("source").get<std::string>(),
-             exhibit.at("wall_s").get<double>());
+  fmt::print("{} {} ({:.0f} s)\n", exhibit.at("name").get<std::string>(),
+             exhibit.at("source").get<std::string>(), exhibit.at("wall_s").get<double>());
   for (const Json& json : exhibit.at("trials")) {
     const Trial t = trial_from_json(json);
     const std::string ratio = t.ratio ? fmt::format("  {:.3g}", *t.ratio) : "";
@@ -171,13 +171,18 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
   CLI::App* command = app.add_subcommand(
       "reproduce", "tables and figures of the papers made anew, beside what is published, on one page");
   command->footer(
-      "Each is measured in a folder of its own below --out and goes on where it was interrupted; what is finished "
-      "stands as\nlong as config, programme and device are the same. The page, README.md and papers.json with "
+      "Each is measured in a folder of its own below --out and goes on where it was interrupted; what is "
+      "finished "
+      "stands as\nlong as config, programme and device are the same. The page, README.md and papers.json "
+      "with "
       "thumbnails, goes to\nreports/papers/DEVICE; exhibits that were not asked for keep their place on it.\n"
-      "Scales: quick takes a fraction of the published sizes, paper the sizes themselves, which take hours on a "
-      "CPU.\nWith --check the page is left alone: verdicts are held against it, and exit code 4 says that one has "
+      "Scales: quick takes a fraction of the published sizes, paper the sizes themselves, which take hours "
+      "on a "
+      "CPU.\nWith --check the page is left alone: verdicts are held against it, and exit code 4 says that "
+      "one has "
       "flipped, as in\n\"[MFIS16 §5]: no longer holds\".\n"
-      "Exit codes: 0 all made, 1 something was not, 2 bad usage or config, 3 no usable device, 4 a verdict has "
+      "Exit codes: 0 all made, 1 something was not, 2 bad usage or config, 3 no usable device, 4 a verdict "
+      "has "
       "flipped.\n"
       "Example: vsglbench reproduce mfis16-tab1 mfis16-fig5 --scale quick");
   command->add_option("names", options->names, "tables and figures, or all (default)");
@@ -185,11 +190,14 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
   command->add_option("--scale", options->scale, "quick or paper")
       ->check(CLI::IsMember({kQuickScale, kPaperScale}))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder for what is measured (default reports/out/papers/SCALE)");
+  command->add_option("--out", options->out,
+                      "folder for what is measured (default reports/out/papers/SCALE)");
   command->add_option("--page", options->page, "folder of the page (default reports/papers/DEVICE)");
-  command->add_flag("--check", options->check, "hold the verdicts against those of the page, and leave it alone");
+  command->add_flag("--check", options->check,
+                    "hold the verdicts against those of the page, and leave it alone");
   command->add_option("--against", options->against, "papers.json to check against (default: the page's)");
-  command->add_option("--assets", options->work.assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
+  command->add_option("--assets", options->work.assets,
+                      "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->work.device,
                       "Vulkan device: index, UUID, PCI address or part of its name");
   command->add_flag("--force", options->work.force, "measure anew what is finished");

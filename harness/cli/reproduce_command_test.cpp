@@ -32,17 +32,20 @@ class ReproduceCommand : public CliTest {
                             {"says", "less"},
                             {"factor", 100},
                             {"metrics", {"rmse"}}}}}};
-    const Json exhibits = {{"exhibits",
-                            {{{"name", "one"},
-                              {"source", "[P Fig. 1]"},
-                              {"title", "First"},
-                              {"runs", {tiny}},
-                              {"claims", {"same"}},
-                              {"sheet", {{{"run", tiny}, {"images", {"reference", "indirect"}}}}}},
-                             {{"name", "two"}, {"source", "[P Tab. 1]"}, {"title", "Second"}, {"runs", {tiny}}}}}};
-    command_ = {"-q", "reproduce", "--exhibits", write("exhibits.json", exhibits.dump()).string(), "--claims",
-                write("claims.json", claims.dump()).string(), "--out", out_.string(), "--page",
-                (out_ / "page").string()};
+    const Json exhibits = {
+        {"exhibits",
+         {{{"name", "one"},
+           {"source", "[P Fig. 1]"},
+           {"title", "First"},
+           {"runs", {tiny}},
+           {"claims", {"same"}},
+           {"sheet", {{{"run", tiny}, {"images", {"reference", "indirect"}}}}}},
+          {{"name", "two"}, {"source", "[P Tab. 1]"}, {"title", "Second"}, {"runs", {tiny}}}}}};
+    command_ = {"-q",         "reproduce",
+                "--exhibits", write("exhibits.json", exhibits.dump()).string(),
+                "--claims",   write("claims.json", claims.dump()).string(),
+                "--out",      out_.string(),
+                "--page",     (out_ / "page").string()};
   }
   Finished reproduce(const std::vector<std::string>& more) const {
     std::vector<std::string> all = command_;
@@ -90,7 +93,8 @@ TEST_F(ReproduceCommand, RefusesWhatItCannotMake) {
 }
 
 TEST_F(ReproduceCommand, AMisspeltClaimIsTold) {
-  const Finished f = run({"reproduce", "--exhibits", write("bad.json", R"({"exhibits": [{"name": "x"}]})").string()});
+  const Finished f =
+      run({"reproduce", "--exhibits", write("bad.json", R"({"exhibits": [{"name": "x"}]})").string()});
   expect_refused(f, 2, "bad.json:1");
 }
 

@@ -117,7 +117,8 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
                  "what it costs\nor saves into the report; --price-effects=ROUNDS of frames, 8 if not "
                  "given (default: the config's, none)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--scale", options->scale, "of the config's scales, such as quick: its keys replace the config's");
+  command->add_option("--scale", options->scale,
+                      "of the config's scales, such as quick: its keys replace the config's");
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--device", options->device,
                       "Vulkan device: index, UUID, PCI address or part of its name");

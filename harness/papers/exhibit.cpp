@@ -14,8 +14,8 @@ using Strings = std::vector<std::string>;
 PublishedColumn column_of(const Json& json) {
   PublishedColumn column{json.at("head"), json.at("machine"), json.at("cases"), json.value("scene", "*"), {}};
   for (const Json& row : json.at("rows"))
-    column.rows.push_back(
-        {row.at("name"), row.value("published", ""), row.at("passes").get<Strings>(), row.value("sum", false)});
+    column.rows.push_back({row.at("name"), row.value("published", ""), row.at("passes").get<Strings>(),
+                           row.value("sum", false)});
   return column;
 }
 
@@ -48,8 +48,7 @@ Exhibit exhibit_of(const Json& json) {
 
 std::vector<Exhibit> load_exhibits(const std::filesystem::path& file) {
   const auto folder = data_root() / "harness" / "papers";
-  static const Json schema =
-      JsonDocument::load(folder / "exhibits.schema.json", ErrorKind::output).root();
+  static const Json schema = JsonDocument::load(folder / "exhibits.schema.json", ErrorKind::output).root();
   const JsonDocument doc =
       JsonDocument::load(file.empty() ? folder / "exhibits.json" : file, ErrorKind::config);
   check_schema(doc, schema);

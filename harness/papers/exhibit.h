@@ -37,14 +37,14 @@ struct SheetPart {
 };
 
 struct Exhibit {
-  std::string name;    // "mfis16-tab1"
-  std::string source;  // "[MFIS16 Tab. 1]"
-  std::string title;   // what it shows, in a sentence
-  std::string differs;  // in what this reproduction is not as published; may be empty
-  std::vector<std::string> runs;    // configs for `run`
-  std::vector<std::string> lights;  // configs for `lights`
-  std::vector<std::string> light_cases;  // globs over their case ids; empty: all
-  std::string figure;               // config for `figure`; empty: none
+  std::string name;                            // "mfis16-tab1"
+  std::string source;                          // "[MFIS16 Tab. 1]"
+  std::string title;                           // what it shows, in a sentence
+  std::string differs;                         // in what this reproduction is not as published; may be empty
+  std::vector<std::string> runs;               // configs for `run`
+  std::vector<std::string> lights;             // configs for `lights`
+  std::vector<std::string> light_cases;        // globs over their case ids; empty: all
+  std::string figure;                          // config for `figure`; empty: none
   uint32_t quick_width = 0, quick_height = 0;  // of it at scale "quick"; 0: its own
   bool code_size = false;
   std::vector<PublishedColumn> table;

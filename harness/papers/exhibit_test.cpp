@@ -40,7 +40,8 @@ std::vector<std::vector<std::string>> printed_table(const std::string& file, con
     std::istringstream parts(line);
     for (std::string cell; std::getline(parts, cell, '\t');) {
       for (const char* mark : {"<b>", "</b>", "<i>", "</i>"}) {
-        for (size_t at; (at = cell.find(mark)) != std::string::npos;) cell.erase(at, std::string(mark).size());
+        for (size_t at; (at = cell.find(mark)) != std::string::npos;)
+          cell.erase(at, std::string(mark).size());
       }
       cells.push_back(cell);
     }
@@ -134,7 +135,8 @@ TEST(Exhibits, NameClaimsConfigsAndScalesThatExist) {
     for (const auto* configs : {&e.runs, &e.lights}) {
       for (const std::string& config : *configs) {
         EXPECT_NO_THROW(load_config(config_path(config))) << config;
-        if (configs == &e.runs) EXPECT_NO_THROW(load_config(config_path(config), Json::object(), "quick")) << config;
+        if (configs == &e.runs)
+          EXPECT_NO_THROW(load_config(config_path(config), Json::object(), "quick")) << config;
       }
     }
     sources.insert(e.runs.begin(), e.runs.end());
@@ -153,9 +155,9 @@ TEST(Exhibits, CoverTheTexts) {
   std::set<std::string> names;
   for (const Exhibit& e : load_exhibits()) names.insert(e.name);
   for (const char* name :
-       {"mfis16-tab1", "mfis16-tab2", "mfis16-tab3", "mfis16-fig1", "mfis16-fig4", "mfis16-fig5", "mfis16-fig6",
-        "mfis16-fig7", "mfis16-fig8", "vsgl14-tab1", "vsgl14-fig1", "vsgl14-fig2", "vsgl14-fig3", "vsgl14-fig4",
-        "vsgl14-fig6", "sgl22-fig1", "sgl22-fig2", "sgl22-fig3", "sgl22-fig4"})
+       {"mfis16-tab1", "mfis16-tab2", "mfis16-tab3", "mfis16-fig1", "mfis16-fig4", "mfis16-fig5",
+        "mfis16-fig6", "mfis16-fig7", "mfis16-fig8", "vsgl14-tab1", "vsgl14-fig1", "vsgl14-fig2",
+        "vsgl14-fig3", "vsgl14-fig4", "vsgl14-fig6", "sgl22-fig1", "sgl22-fig2", "sgl22-fig3", "sgl22-fig4"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 

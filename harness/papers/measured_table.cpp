@@ -21,8 +21,8 @@ bool is_wanted(const PassTiming& pass, const std::vector<std::string>& globs) {
 }
 
 MeasuredRow row_of(const CaseResult& c, const PublishedColumn& column, const PublishedRow& published) {
-  MeasuredRow row{.column = column.head, .name = published.name, .published = published.published,
-                  .sum = published.sum};
+  MeasuredRow row{
+      .column = column.head, .name = published.name, .published = published.published, .sum = published.sum};
   std::vector<double> sums;
   for (const PassTiming& pass : c.passes) {
     if (!is_wanted(pass, published.passes)) continue;
@@ -43,8 +43,8 @@ const CaseResult* case_of(const Report& report, const std::string& scene, const 
   for (const CaseResult& c : report.cases) {
     if (c.scene != scene || c.status != Status::ok || !matches_glob(c.id, column.cases)) continue;
     if (found)
-      throw fail(ErrorKind::config, "column '{}' of the table matches two cases of {}: {} and {}", column.head,
-                 scene, found->id, c.id);
+      throw fail(ErrorKind::config, "column '{}' of the table matches two cases of {}: {} and {}",
+                 column.head, scene, found->id, c.id);
     found = &c;
   }
   return found;
@@ -88,7 +88,8 @@ MeasuredTable code_size_table_of(const Json& sizes, const Exhibit& exhibit) {
       MeasuredRow row{.column = column.head, .name = published.name, .published = published.published};
       if (size != sizes.end()) {
         double count = 0;
-        for (const std::string& what : published.passes) count += size->at(Json::json_pointer(what)).get<double>();
+        for (const std::string& what : published.passes)
+          count += size->at(Json::json_pointer(what)).get<double>();
         row.value = row.mean = count;
       }
       table.rows.push_back(std::move(row));

@@ -19,7 +19,7 @@ struct MeasuredPass {
 struct MeasuredRow {
   std::string column, name, published;
   bool sum = false;
-  std::optional<double> value;  // median over frames, ms; of code size a count
+  std::optional<double> value;   // median over frames, ms; of code size a count
   std::optional<Interval> ci95;  // of the median; none of a count
   double mean = 0;
   std::vector<MeasuredPass> passes;  // empty where the case has none of them
@@ -31,8 +31,8 @@ struct MeasuredTable {
   std::vector<MeasuredRow> rows;  // column by column
 };
 
-// One table for each scene of the report that has an ok case of every column that is of it. A column that several cases
-// of a scene match throws Error(config).
+// One table for each scene of the report that has an ok case of every column that is of it. A column that
+// several cases of a scene match throws Error(config).
 std::vector<MeasuredTable> tables_of(const Report& report, const Exhibit& exhibit);
 
 // Of Tab. 3; `sizes` is what `code-size --json` prints.

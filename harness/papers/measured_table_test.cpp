@@ -26,10 +26,13 @@ Exhibit exhibit_of(std::vector<PublishedColumn> table) {
   return e;
 }
 
-const PublishedColumn kColumn = {
-    "FIS", "some GPU", "*/fis/*", "*",
-    {{"Sample", "0.5", {"generate.*.sample"}, false}, {"Mip", "1.5", {"generate.rsm.mipmap"}, false},
-     {"Total", "2.0", {"generate.*"}, true}}};
+const PublishedColumn kColumn = {"FIS",
+                                 "some GPU",
+                                 "*/fis/*",
+                                 "*",
+                                 {{"Sample", "0.5", {"generate.*.sample"}, false},
+                                  {"Mip", "1.5", {"generate.rsm.mipmap"}, false},
+                                  {"Total", "2.0", {"generate.*"}, true}}};
 
 TEST(MeasuredTable, AddsUpTheNamedPassesFrameByFrame) {
   Report report;
@@ -93,9 +96,12 @@ TEST(MeasuredTable, ARowWithoutItsPassesHasNoValue) {
 
 TEST(MeasuredTable, CodeSizeAddsUpCounts) {
   const Json sizes = {{{"method", "fis"}, {"kernels", 3}, {"own_lines", 10}, {"shared_lines", 200}}};
-  const PublishedColumn column = {"FIS", "HLSL", "fis", "*",
-                                  {{"Shaders", "2", {"/kernels"}, false},
-                                   {"Lines", "222", {"/own_lines", "/shared_lines"}, false}}};
+  const PublishedColumn column = {
+      "FIS",
+      "HLSL",
+      "fis",
+      "*",
+      {{"Shaders", "2", {"/kernels"}, false}, {"Lines", "222", {"/own_lines", "/shared_lines"}, false}}};
   const MeasuredTable table = code_size_table_of(sizes, exhibit_of({column}));
   EXPECT_EQ(table.rows[0].value, 3);
   EXPECT_EQ(table.rows[1].value, 210);

@@ -27,7 +27,8 @@ std::string number(double value) {
 std::string interval_text(const Json& row) {
   if (!row.contains("value")) return "-";
   if (!row.contains("ci95")) return number(row["value"]);
-  return fmt::format("{} [{}, {}]", number(row["value"]), number(row["ci95"].at(0)), number(row["ci95"].at(1)));
+  return fmt::format("{} [{}, {}]", number(row["value"]), number(row["ci95"].at(0)),
+                     number(row["ci95"].at(1)));
 }
 
 // --- the ledger ---
@@ -84,7 +85,8 @@ std::string ledger(const Json& papers) {
     if (total[r] > 0) parts.push_back(fmt::format("{} {}", total[r], name(r)));
   }
   std::string out = fmt::format(
-      "## What the papers claim\n\nOf {} claims: {}. A claim holds where its ratio lies wholly on the side that "
+      "## What the papers claim\n\nOf {} claims: {}. A claim holds where its ratio lies wholly on the side "
+      "that "
       "is said, by its 95 % interval; it holds in part where scenes, errors or pairs contradict each other. "
       "What does not hold is a finding, not a failure.\n\n"
       "| where | claim | tried as | verdict | trials | in |\n| --- | --- | --- | --- | --- | --- |\n",
@@ -108,9 +110,10 @@ std::string table_text(const Json& table) {
   const std::string unit = table.value("unit", "");
   const std::string scene = table.value("scene", "");
   std::string out = scene.empty() ? "" : fmt::format("Scene `{}`:\n\n", cell(scene));
-  out += fmt::format("| | | published{0} | here{0} | here / published |{1}\n| --- | --- | ---: | ---: | ---: |{2}\n",
-                     unit.empty() ? "" : ", " + unit, sums.empty() ? "" : " share, published | share, here |",
-                     sums.empty() ? "" : " ---: | ---: |");
+  out += fmt::format(
+      "| | | published{0} | here{0} | here / published |{1}\n| --- | --- | ---: | ---: | ---: |{2}\n",
+      unit.empty() ? "" : ", " + unit, sums.empty() ? "" : " share, published | share, here |",
+      sums.empty() ? "" : " ---: | ---: |");
   std::string before;
   for (const Json& row : table.at("rows")) {
     const std::string column = row["column"], published = row["published"];
@@ -146,28 +149,33 @@ std::string machines(const Json& exhibit) {
 
 std::string trials_text(const Json& exhibit) {
   if (exhibit.at("trials").empty()) return "";
-  std::string out = "| claim | place | measure | verdict | ratio [95 %] | |\n| --- | --- | --- | --- | ---: | --- |\n";
+  std::string out =
+      "| claim | place | measure | verdict | ratio [95 %] | |\n| --- | --- | --- | --- | ---: | --- |\n";
   for (const Json& json : exhibit.at("trials")) {
     const Trial t = trial_from_json(json);
-    const std::string ratio = !t.ratio  ? ""
-                              : t.ci95 ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi)
-                                       : fmt::format("{:.3g}", *t.ratio);
+    const std::string ratio = !t.ratio ? ""
+                              : t.ci95
+                                  ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi)
+                                  : fmt::format("{:.3g}", *t.ratio);
     out += fmt::format("| {} {} | {} | {} | {} | {} | {} |\n", cell(t.source), cell(t.claim), cell(t.place),
                        cell(t.metric), name(t.ruling), ratio, cell(t.figures));
   }
   return out + "\n";
 }
 
+std::string commit_text(const Json& of) {
+  return of.at("commit").get<std::string>().substr(0, 7) +
+         (of.at("dirty").get<bool>() ? " with changes" : "");
+}
+
 std::string exhibit_text(const Json& e) {
   std::string out = fmt::format("## {}\n\n**{}** {}.\n\n", e.at("name").get<std::string>(),
                                 cell(e.at("source")), cell(e.at("title")));
   if (e.contains("differs")) out += fmt::format("Unlike the paper: {}.\n\n", cell(e["differs"]));
-  out += fmt::format("`{}`, commit {}{}, {:.0f} s", cell(e.at("command")),
-                     e.at("commit").get<std::string>().substr(0, 7), e.at("dirty").get<bool>() ? " with changes" : "",
-                     e.at("wall_s").get<double>());
+  out += fmt::format("`{}`, commit {}", cell(e.at("command")), commit_text(e));
   for (const Json& m : e.at("measured")) {
-    out += fmt::format("; {} measured {} in {:.0f} s", cell(m.at("config")), cell(m.at("created")),
-                       m.at("wall_s").get<double>());
+    out += fmt::format("; `{}` was measured {} in {:.0f} s, commit {}", cell(m.at("config")),
+                       cell(m.at("created")), m.at("wall_s").get<double>(), commit_text(m));
   }
   out += ".\n\n";
   if (e.contains("sheet")) out += fmt::format("![{0}]({0})\n\n", cell(e["sheet"]));
@@ -188,10 +196,13 @@ std::string papers_page(const Json& papers) {
   const Json& device = papers.at("device");
   out += fmt::format(
       "What [MFIS16], [VSGL14], [VSGL15s] and [SGL22] show in tables and figures, made anew by "
-      "`vsglbench reproduce all` on {} ({} {}), {} with {} cores{}. Published values stand as printed; what is "
-      "asserted is only what carries over between machines: order, ratios, signs. Each thumbnail is made of a "
+      "`vsglbench reproduce all` on {} ({} {}), {} with {} cores{}. Published values stand as printed; what "
+      "is "
+      "asserted is only what carries over between machines: order, ratios, signs. Each thumbnail is made of "
+      "a "
       "larger sheet, which the command leaves beside its images. This page is made of "
-      "[papers.json](papers.json), which has every figure of it; `vsglbench reproduce all --check` tells where a "
+      "[papers.json](papers.json), which has every figure of it; `vsglbench reproduce all --check` tells "
+      "where a "
       "verdict has changed since.\n\n",
       cell(device.at("name")), cell(device.at("driver")), cell(device.at("driver_version")),
       cell(papers.at("host").at("cpu")), papers.at("host").at("cores").get<int>(),
@@ -199,7 +210,8 @@ std::string papers_page(const Json& papers) {
   out += "Exhibits: ";
   std::vector<std::string> links;
   for (const Json& e : papers.at("exhibits"))
-    links.push_back(fmt::format("[{0}](#{0}) ({1})", e.at("name").get<std::string>(), e.at("scale").get<std::string>()));
+    links.push_back(
+        fmt::format("[{0}](#{0}) ({1})", e.at("name").get<std::string>(), e.at("scale").get<std::string>()));
   out += fmt::format("{}.\n\n", fmt::join(links, ", "));
   out += ledger(papers);
   for (const Json& e : papers.at("exhibits")) out += exhibit_text(e);

@@ -12,24 +12,45 @@ namespace fs = std::filesystem;
 namespace {
 
 Json trial(const std::string& claim, const std::string& ruling, const std::string& place = "box") {
-  return {{"exhibit", "tab1"}, {"claim", claim},  {"source", "[P §1]"}, {"text", "A costs less than B"},
-          {"how", "a beside b"}, {"place", place}, {"metric", "rmse"},   {"ruling", ruling},
+  return {{"exhibit", "tab1"},   {"claim", claim},    {"source", "[P §1]"}, {"text", "A costs less than B"},
+          {"how", "a beside b"}, {"place", place},    {"metric", "rmse"},   {"ruling", ruling},
           {"ratio", 0.5},        {"ci95", {0.4, 0.6}}};
 }
 
 Json page_of(const Json& trials) {
-  const Json rows = {{{"column", "FIS"}, {"name", "Sample"}, {"published", "0.5"}, {"machine", "GTX"}, {"value", 5.0},
-                      {"mean", 5.0}, {"ci95", {4.9, 5.1}}},
-                     {{"column", "FIS"}, {"name", "Total"}, {"published", "2.0"}, {"machine", "GTX"}, {"value", 10.0},
-                      {"mean", 10.0}, {"ci95", {9.9, 10.1}}, {"sum", true}}};
+  const Json rows = {{{"column", "FIS"},
+                      {"name", "Sample"},
+                      {"published", "0.5"},
+                      {"machine", "GTX"},
+                      {"value", 5.0},
+                      {"mean", 5.0},
+                      {"ci95", {4.9, 5.1}}},
+                     {{"column", "FIS"},
+                      {"name", "Total"},
+                      {"published", "2.0"},
+                      {"machine", "GTX"},
+                      {"value", 10.0},
+                      {"mean", 10.0},
+                      {"ci95", {9.9, 10.1}},
+                      {"sum", true}}};
   return {{"device", {{"name", "llvm|pipe"}, {"type", "cpu"}, {"driver", "Mesa"}, {"driver_version", "1"}}},
           {"host", {{"cpu", "CPU"}, {"cores", 2}}},
           {"exhibits",
-           {{{"name", "tab1"}, {"source", "[P Tab. 1]"}, {"title", "Times"}, {"scale", "quick"},
-             {"command", "vsglbench reproduce tab1"}, {"commit", "0123456789"}, {"dirty", false}, {"wall_s", 12.0},
-             {"host", {{"cpu", "CPU"}, {"cores", 2}}}, {"measured", Json::array()}, {"sheet", "tab1.png"},
-             {"problems", {"room: its asset is absent"}}, {"reports", Json::array()},
-             {"tables", {{{"scene", "box"}, {"unit", "ms"}, {"rows", rows}}}}, {"trials", trials}}}}};
+           {{{"name", "tab1"},
+             {"source", "[P Tab. 1]"},
+             {"title", "Times"},
+             {"scale", "quick"},
+             {"command", "vsglbench reproduce tab1"},
+             {"commit", "0123456789"},
+             {"dirty", false},
+             {"wall_s", 12.0},
+             {"host", {{"cpu", "CPU"}, {"cores", 2}}},
+             {"measured", Json::array()},
+             {"sheet", "tab1.png"},
+             {"problems", {"room: its asset is absent"}},
+             {"reports", Json::array()},
+             {"tables", {{{"scene", "box"}, {"unit", "ms"}, {"rows", rows}}}},
+             {"trials", trials}}}}};
 }
 
 size_t count(const std::string& text, const std::string& part) {
@@ -61,7 +82,8 @@ TEST(PapersPage, AnExhibitMadeAnewTakesItsPlaceAndLeavesTheOthers) {
   first.name = "a";
   second.name = "b";
   third.name = "c";
-  const Json earlier = {{"exhibits", {{{"name", "c"}, {"n", 1}}, {{"name", "a"}, {"n", 1}}, {{"name", "gone"}}}}};
+  const Json earlier = {
+      {"exhibits", {{{"name", "c"}, {"n", 1}}, {{"name", "a"}, {"n", 1}}, {{"name", "gone"}}}}};
   const Json fresh = {{"exhibits", {{{"name", "b"}, {"n", 2}}, {{"name", "a"}, {"n", 2}}}}};
   const Json out = merged(earlier, fresh, {first, second, third}).at("exhibits");
   ASSERT_EQ(out.size(), 3u);

@@ -75,8 +75,8 @@ TEST_F(PlantedFault, ExchangedAxesOfTheReceiversLobe) {
 
 TEST_F(PlantedFault, ThePdfAtTheCentreInPlaceOfItsMean) {
   expect_flip("mfis16-fig5",
-              {"harness/method/shaders/equal_probability.glsl", "footprint_area(level) * filtered_pdf(c, level)",
-               "footprint_area(level) * c.p"},
+              {"harness/method/shaders/equal_probability.glsl",
+               "footprint_area(level) * filtered_pdf(c, level)", "footprint_area(level) * c.p"},
               "fis-makes-too-bright-lights");
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "image/theme.h"
 #include "measure/stopwatch.h"
 #include "papers/measured_table.h"
 #include "papers/sheet.h"
@@ -23,7 +24,8 @@ namespace {
 // --- what was measured, as JSON ---
 
 Json to_json(const MeasuredRow& row, const std::string& machine) {
-  Json json = {{"column", row.column}, {"name", row.name}, {"published", row.published}, {"machine", machine}};
+  Json json = {
+      {"column", row.column}, {"name", row.name}, {"published", row.published}, {"machine", machine}};
   if (row.sum) json["sum"] = true;
   if (row.value) json.update({{"value", *row.value}, {"mean", row.mean}});
   if (row.ci95) json["ci95"] = {row.ci95->lo, row.ci95->hi};
@@ -55,40 +57,59 @@ std::string metrics_line(const CaseResult& c) {
   return rmse && smape ? fmt::format("SMAPE {:.3g} %  RMSE {:.3g}", *smape, *rmse) : "";
 }
 
-// A block a scene: a row a kind of image, a tile a case; the reference stands first in the first row.
-std::vector<SheetRow> rows_of(const Work<Report>& work, const SheetPart& part) {
+// Keeps a place free.
+Bitmap empty_like(const Bitmap& picture) {
+  Bitmap out(picture.width, picture.height);
+  for (size_t i = 0; i < out.bytes.size(); ++i) out.bytes[i] = theme().paper[static_cast<int>(i % 3)];
+  return out;
+}
+
+SheetTile image_of(const Work<Report>& work, const CaseResult& c, const std::string& image,
+                   const std::string& caption) {
+  const bool plain = image == "indirect";
+  return {read_png(work.folder / preview(c.images.at(image))), plain ? caption : caption + ": " + image,
+          plain ? metrics_line(c) : ""};
+}
+
+// A row a kind of image, a tile a case; the reference stands first in the first row, and nothing below it.
+std::vector<SheetRow> rows_of_scene(const Work<Report>& work, const SheetPart& part,
+                                    const std::string& scene) {
+  std::vector<CaseResult> cases;
+  for (const CaseResult& c : work.result.cases) {
+    if (c.scene == scene && matches_glob(c.id, part.cases) && c.images.contains("reference"))
+      cases.push_back(c);
+  }
+  if (cases.empty()) return {};
+  const Captions captions = captions_of(cases);
+  const bool with_reference = std::ranges::count(part.images, "reference") > 0;
   std::vector<SheetRow> out;
+  for (const std::string& image : part.images) {
+    if (image == "reference") continue;
+    SheetRow row{out.empty() ? fmt::format("{}  {}", scene, captions.shared) : "", {}};
+    if (with_reference) {
+      const Bitmap reference = read_png(work.folder / preview(cases[0].images.at("reference")));
+      row.tiles.push_back(out.empty() ? SheetTile{reference, "reference", ""}
+                                      : SheetTile{empty_like(reference), "", ""});
+    }
+    const size_t before = row.tiles.size();
+    for (size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].images.contains(image))
+        row.tiles.push_back(image_of(work, cases[i], image, captions.cases[i]));
+    }
+    if (row.tiles.size() > before) out.push_back(std::move(row));
+  }
+  return out;
+}
+
+// A block a scene.
+std::vector<SheetRow> rows_of(const Work<Report>& work, const SheetPart& part) {
   std::vector<std::string> scenes;
   for (const CaseResult& c : work.result.cases) {
     if (std::ranges::count(scenes, c.scene) == 0) scenes.push_back(c.scene);
   }
+  std::vector<SheetRow> out;
   for (const std::string& scene : scenes) {
-    std::vector<const CaseResult*> cases;
-    std::vector<CaseResult> named;
-    for (const CaseResult& c : work.result.cases) {
-      if (c.scene != scene || !matches_glob(c.id, part.cases) || c.images.empty()) continue;
-      cases.push_back(&c);
-      named.push_back(c);
-    }
-    if (cases.empty()) continue;
-    const Captions captions = captions_of(named);
-    bool first = true;
-    for (const std::string& image : part.images) {
-      if (image == "reference") continue;
-      SheetRow row{first ? fmt::format("{}  {}", scene, captions.shared) : "", {}};
-      for (size_t i = 0; i < cases.size(); ++i) {
-        const CaseResult& c = *cases[i];
-        const bool with_reference = std::ranges::count(part.images, "reference") > 0;
-        if (i == 0 && first && with_reference && c.images.contains("reference"))
-          row.tiles.push_back({read_png(work.folder / preview(c.images.at("reference"))), "reference", ""});
-        if (!c.images.contains(image)) continue;
-        row.tiles.push_back({read_png(work.folder / preview(c.images.at(image))),
-                             captions.cases[i] + (image == "indirect" ? "" : ": " + image),
-                             image == "indirect" ? metrics_line(c) : ""});
-      }
-      if (!row.tiles.empty()) out.push_back(std::move(row));
-      first = false;
-    }
+    for (SheetRow& row : rows_of_scene(work, part, scene)) out.push_back(std::move(row));
   }
   return out;
 }
@@ -98,7 +119,8 @@ SheetRow files_of(const fs::path& folder, const SheetPart& part) {
   std::vector<std::string> paths;
   std::error_code ec;
   for (fs::recursive_directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
-    if (at->path().extension() == ".png") paths.push_back(at->path().lexically_relative(folder).generic_string());
+    if (at->path().extension() == ".png")
+      paths.push_back(at->path().lexically_relative(folder).generic_string());
   }
   std::ranges::sort(paths);
   SheetRow row;
@@ -155,7 +177,8 @@ void ExhibitWork::add(const std::vector<Trial>& trials) {
 }
 
 void ExhibitWork::note_machine(const DeviceReport& d) {
-  json_["device"] = {{"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}};
+  json_["device"] = {
+      {"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}};
 }
 
 void ExhibitWork::take_run(const std::string& config) {
@@ -169,12 +192,15 @@ void ExhibitWork::take_run(const std::string& config) {
                                {"wall_s", report.wall.total_s}});
   for (const CaseResult& c : report.cases) {
     if (c.status != Status::ok)
-      json_["problems"].push_back(fmt::format("{}: {}: {}", c.id, name(c.status), c.error ? c.error->message : ""));
+      json_["problems"].push_back(
+          fmt::format("{}: {}: {}", c.id, name(c.status), c.error ? c.error->message : ""));
   }
-  for (const MeasuredTable& table : tables_of(report, exhibit_)) json_["tables"].push_back(to_json(table, exhibit_));
+  for (const MeasuredTable& table : tables_of(report, exhibit_))
+    json_["tables"].push_back(to_json(table, exhibit_));
   add(trials_of(report, exhibit_, claims_));
   if (!exhibit_.columns.empty())
-    json_["reports"].push_back({{"config", config}, {"markdown", markdown_table(report, {.columns = exhibit_.columns})}});
+    json_["reports"].push_back(
+        {{"config", config}, {"markdown", markdown_table(report, {.columns = exhibit_.columns})}});
   for (const SheetPart& part : exhibit_.sheet) {
     if (part.run != config) continue;
     if (!part.files.empty()) rows_.push_back(files_of(work.folder, part));
@@ -185,7 +211,8 @@ void ExhibitWork::take_run(const std::string& config) {
 void ExhibitWork::take_lights(const std::string& config) {
   const auto& work = work_.lights(config, exhibit_.light_cases);
   for (const LightsResult& r : work.result) {
-    if (r.status != Status::ok) json_["problems"].push_back(fmt::format("{}: {}: {}", r.id, name(r.status), r.error));
+    if (r.status != Status::ok)
+      json_["problems"].push_back(fmt::format("{}: {}: {}", r.id, name(r.status), r.error));
   }
   add(trials_of(work.result, exhibit_));
   for (const SheetPart& part : exhibit_.sheet) {
@@ -195,7 +222,8 @@ void ExhibitWork::take_lights(const std::string& config) {
 
 void ExhibitWork::take_figure() {
   const bool quick = scale_ == kQuickScale;
-  const auto& work = work_.figure(exhibit_.figure, quick ? exhibit_.quick_width : 0, quick ? exhibit_.quick_height : 0);
+  const auto& work =
+      work_.figure(exhibit_.figure, quick ? exhibit_.quick_width : 0, quick ? exhibit_.quick_height : 0);
   const Json& d = work.result.device;
   json_["device"] = d;
   add(trials_of(work.result, exhibit_));
@@ -268,7 +296,8 @@ Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& 
   for (const Exhibit& exhibit : all) {
     for (const Json* source : {&fresh, &earlier}) {
       const Json exhibits = source->value("exhibits", Json::array());
-      const auto at = std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == exhibit.name; });
+      const auto at =
+          std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == exhibit.name; });
       if (at == exhibits.end()) continue;
       out["exhibits"].push_back(*at);
       break;
@@ -308,12 +337,13 @@ std::string flip_text(const Flip& flip) {
     if (!t.ci95) return fmt::format("{:.3g}", *t.ratio);
     return fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi);
   };
-  const std::string what = flip.before.ruling == Ruling::holds ? "no longer holds"
+  const std::string what = flip.before.ruling == Ruling::holds  ? "no longer holds"
                            : flip.after.ruling == Ruling::holds ? "now holds"
                                                                 : std::string(name(flip.after.ruling));
-  return fmt::format("{}: {}: {} ({}, {}, {}; was {}: {}, is {}: {})", flip.after.source, what, flip.after.text,
-                     flip.after.exhibit, flip.after.place, flip.after.metric, name(flip.before.ruling),
-                     number(flip.before), name(flip.after.ruling), number(flip.after));
+  return fmt::format("{}: {}: {} ({}, {}, {}; was {}: {}, is {}: {})", flip.after.source, what,
+                     flip.after.text, flip.after.exhibit, flip.after.place, flip.after.metric,
+                     name(flip.before.ruling), number(flip.before), name(flip.after.ruling),
+                     number(flip.after));
 }
 
 }  // namespace vsglbench

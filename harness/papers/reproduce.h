@@ -35,14 +35,16 @@ Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& 
 
 struct Flip {
   Trial before, after;
-  bool lost = false;  // what held no longer does, or what did not hold does: a kernel has changed what is true
+  bool lost =
+      false;  // what held no longer does, or what did not hold does: a kernel has changed what is true
 };
 
 // Trials that both have at one scale and whose rulings differ. `lost`: both rulings are certain, that is
 // neither undecided nor not run.
 std::vector<Flip> flips(const Json& before, const Json& after);
 
-// "[MFIS16 §5] no longer holds: ... (mfis16-fig5, conference, rmse; 0.98 [0.97, 0.99] was, 1.2 [1.1, 1.3] is)"
+// "[MFIS16 §5] no longer holds: ... (mfis16-fig5, conference, rmse; 0.98 [0.97, 0.99] was, 1.2 [1.1, 1.3]
+// is)"
 std::string flip_text(const Flip& flip);
 
 // --- the page ---

@@ -32,7 +32,10 @@ class Reproduce : public ::testing::Test {
     exhibit_.runs = {(folder_ / "tiny.json").string()};
     exhibit_.columns = {"rmse"};
     exhibit_.claims = {"mfis-costs-nothing"};
-    exhibit_.table = {{"FIS", "GTX", "*/fis/*", "*",
+    exhibit_.table = {{"FIS",
+                       "GTX",
+                       "*/fis/*",
+                       "*",
                        {{"Generation", "1.0", {"generate.*"}, false}, {"Shade", "2.0", {"shade"}, false}}}};
     exhibit_.sheet = {{exhibit_.runs[0], "*", {"reference", "indirect", "error"}, {}}};
   }

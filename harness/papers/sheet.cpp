@@ -117,11 +117,12 @@ Bitmap reduce_to_width(const Bitmap& picture, uint32_t width) {
         double sum = 0;
         for (const Share& v : down) {
           for (const Share& h : across[x])
-            sum += v.weight * h.weight *
-                   (c == 3 ? picture.at(h.pixel, v.pixel)[c] / 255.0 : linear(picture.at(h.pixel, v.pixel)[c]));
+            sum +=
+                v.weight * h.weight *
+                (c == 3 ? picture.at(h.pixel, v.pixel)[c] / 255.0 : linear(picture.at(h.pixel, v.pixel)[c]));
         }
-        out.at(x, y)[c] = c == 3 ? static_cast<uint8_t>(std::lround(255 * sum))
-                                 : encode_srgb(static_cast<float>(sum));
+        out.at(x, y)[c] =
+            c == 3 ? static_cast<uint8_t>(std::lround(255 * sum)) : encode_srgb(static_cast<float>(sum));
       }
     }
   }

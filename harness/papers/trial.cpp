@@ -47,8 +47,7 @@ Trial trial_of(const ClaimRow& row, const PaperClaim& claim, const Exhibit& exhi
 const PaperClaim& claim_named(const std::vector<PaperClaim>& claims, const std::string& name,
                               const Exhibit& exhibit) {
   const auto at = std::ranges::find(claims, name, &PaperClaim::name);
-  if (at == claims.end())
-    throw fail(ErrorKind::config, "{}: no claim is named '{}'", exhibit.name, name);
+  if (at == claims.end()) throw fail(ErrorKind::config, "{}: no claim is named '{}'", exhibit.name, name);
   return *at;
 }
 
@@ -62,8 +61,13 @@ const Json& size_of(const Json& sizes, const std::string& method) {
 // A count of both beside each other, as the table of the paper has them.
 Trial of_counts(const Exhibit& exhibit, const std::string& name, const std::string& text, double a, double b,
                 double factor, const std::string& how) {
-  Trial t{.exhibit = exhibit.name, .claim = "code-size/" + name, .text = text, .source = "[MFIS16 §5, Tab. 3]",
-          .how = how, .place = "source tree", .metric = name};
+  Trial t{.exhibit = exhibit.name,
+          .claim = "code-size/" + name,
+          .text = text,
+          .source = "[MFIS16 §5, Tab. 3]",
+          .how = how,
+          .place = "source tree",
+          .metric = name};
   t.ratio = b > 0 ? std::optional(a / b) : std::nullopt;
   t.ruling = !t.ratio ? Ruling::undecided : *t.ratio <= factor ? Ruling::holds : Ruling::does_not_hold;
   t.figures = fmt::format("{:g} beside {:g}", a, b);
@@ -71,8 +75,8 @@ Trial of_counts(const Exhibit& exhibit, const std::string& name, const std::stri
 }
 
 // A ratio that must be above (sign 1) or below (-1) 1, by its interval.
-Trial of_edges(const LightsResult& r, const Exhibit& exhibit, const std::string& name, const std::string& text,
-               const std::optional<Ratio>& ratio, int sign) {
+Trial of_edges(const LightsResult& r, const Exhibit& exhibit, const std::string& name,
+               const std::string& text, const std::optional<Ratio>& ratio, int sign) {
   Trial t{.exhibit = exhibit.name,
           .claim = "lights-on-edges/" + name,
           .text = text,
@@ -138,8 +142,9 @@ std::vector<Trial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit
   const auto kernels = [](const Json& s) { return s.at("kernels").get<double>(); };
   const Json& fis = size_of(sizes, "fis");
   const Json& mfis = size_of(sizes, "mfis");
-  out.push_back(of_counts(exhibit, "mfis-kernels", "The modified method has no more shaders than the original",
-                          kernels(mfis), kernels(fis), 1, "kernels of mfis beside fis; no more"));
+  out.push_back(of_counts(exhibit, "mfis-kernels",
+                          "The modified method has no more shaders than the original", kernels(mfis),
+                          kernels(fis), 1, "kernels of mfis beside fis; no more"));
   out.push_back(of_counts(exhibit, "mfis-lines",
                           "The modification takes ten lines: less than a twentieth of the original's code",
                           lines(mfis), lines(fis), 1.05, "lines of mfis beside fis; at most 1.05 times"));
@@ -164,17 +169,18 @@ std::vector<Trial> trials_of(const std::vector<LightsResult>& lights, const Exhi
   std::vector<Trial> out;
   for (const LightsResult& r : lights) {
     if (!r.edges || r.seed != 0) continue;  // the seed that is drawn
-    out.push_back(of_edges(r, exhibit, "larger",
-                           "Filtering makes larger VSGLs on discontinuous geometry", r.edges->sigma, 1));
-    out.push_back(of_edges(r, exhibit, "darker",
-                           "Filtering makes darker VSGLs on discontinuous geometry", r.edges->density, -1));
+    out.push_back(of_edges(r, exhibit, "larger", "Filtering makes larger VSGLs on discontinuous geometry",
+                           r.edges->sigma, 1));
+    out.push_back(of_edges(r, exhibit, "darker", "Filtering makes darker VSGLs on discontinuous geometry",
+                           r.edges->density, -1));
   }
   return out;
 }
 
 Json to_json(const Trial& t) {
-  Json json = {{"exhibit", t.exhibit}, {"claim", t.claim}, {"source", t.source},
-               {"text", t.text},       {"how", t.how},     {"place", t.place},
+  Json json = {{"exhibit", t.exhibit}, {"claim", t.claim},
+               {"source", t.source},   {"text", t.text},
+               {"how", t.how},         {"place", t.place},
                {"metric", t.metric},   {"ruling", std::string(name(t.ruling))}};
   if (t.ratio) json["ratio"] = *t.ratio;
   if (t.ci95) json["ci95"] = {t.ci95->lo, t.ci95->hi};

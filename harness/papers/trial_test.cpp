@@ -11,8 +11,14 @@ using namespace vsglbench;
 namespace {
 
 Trial made(const std::string& claim, Ruling ruling, double ratio = 0.5) {
-  Trial t{.exhibit = "fig", .claim = claim, .text = "A cuts B", .source = "[P §5]", .how = "a beside b",
-          .place = "box", .metric = "rmse", .ruling = ruling};
+  Trial t{.exhibit = "fig",
+          .claim = claim,
+          .text = "A cuts B",
+          .source = "[P §5]",
+          .how = "a beside b",
+          .place = "box",
+          .metric = "rmse",
+          .ruling = ruling};
   t.ratio = ratio;
   t.ci95 = Interval{0.9 * ratio, 1.1 * ratio};
   return t;
@@ -47,7 +53,8 @@ TEST(Flips, TellWhatNoLongerHolds) {
   EXPECT_TRUE(found[0].lost);
   const std::string text = flip_text(found[0]);
   EXPECT_NE(text.find("[P §5]: no longer holds: A cuts B"), std::string::npos) << text;
-  EXPECT_NE(text.find("was holds: 0.5 [0.45, 0.55], is does not hold: 2 [1.8, 2.2]"), std::string::npos) << text;
+  EXPECT_NE(text.find("was holds: 0.5 [0.45, 0.55], is does not hold: 2 [1.8, 2.2]"), std::string::npos)
+      << text;
 }
 
 TEST(Flips, InPartIsNoLongerWhatHeld) {
@@ -63,8 +70,9 @@ TEST(Flips, WhatNoiseLeavesOpenIsAChangeAndNoFlip) {
 }
 
 TEST(Flips, OnlyTrialsOfOneScaleAreCompared) {
-  EXPECT_TRUE(flips(papers({made("x", Ruling::holds)}, "quick"), papers({made("x", Ruling::does_not_hold)}, "paper"))
-                  .empty());
+  EXPECT_TRUE(
+      flips(papers({made("x", Ruling::holds)}, "quick"), papers({made("x", Ruling::does_not_hold)}, "paper"))
+          .empty());
   EXPECT_TRUE(flips(papers({made("x", Ruling::holds)}), papers({made("z", Ruling::does_not_hold)})).empty());
 }
 
@@ -85,8 +93,11 @@ TEST(Trial, OfAFigureKeepsWhatItFound) {
 }
 
 Json size(const char* method, int kernels, int dispatches, int lines) {
-  return {{"method", method}, {"kernels", kernels}, {"dispatches", {{"rsm", dispatches}, {"gbuffer", 1}}},
-          {"own_lines", lines}, {"shared_lines", 0}};
+  return {{"method", method},
+          {"kernels", kernels},
+          {"dispatches", {{"rsm", dispatches}, {"gbuffer", 1}}},
+          {"own_lines", lines},
+          {"shared_lines", 0}};
 }
 
 TEST(Trial, OfCodeSizeComparesCounts) {

@@ -65,9 +65,10 @@ Json measure_code_sizes(const std::string& device) {
       if (method->refused.empty()) sizes.push_back(to_json(code_size(opened, method->name)));
     }
     const DeviceInfo& d = opened.info();
-    parent.send({{"device",
-                  {{"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}}},
-                 {"sizes", sizes}});
+    parent.send(
+        {{"device",
+          {{"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}}},
+         {"sizes", sizes}});
   });
   constexpr double kSilence = 600;
   const auto sizes = child.receive(kSilence);
@@ -81,8 +82,7 @@ const Work<Report>& PapersWork::run(const std::string& config) {
   const auto known = runs_.find(config);
   if (known != runs_.end()) return known->second;
   const fs::path where = folder(config);
-  if (options_.as_is)
-    return runs_.emplace(config, Work<Report>{read_report_at(where), where}).first->second;
+  if (options_.as_is) return runs_.emplace(config, Work<Report>{read_report_at(where), where}).first->second;
   RunOptions options{.config = config_path(config),
                      .out = where,
                      .assets = options_.assets,
@@ -100,8 +100,8 @@ const Work<std::vector<LightsResult>>& PapersWork::lights(const std::string& con
   const auto known = lights_.find(key);
   if (known != lights_.end()) return known->second;
   const fs::path where = folder(config + "-lights");
-  const Json id = identity(options_, {load_config(config_path(config), Json::object(), options_.scale).resolved,
-                                      cases});
+  const Json id =
+      identity(options_, {load_config(config_path(config), Json::object(), options_.scale).resolved, cases});
   std::vector<LightsResult> results;
   if (const auto made = made_before(where, id, options_)) {
     results = lights_from(*made);

@@ -16,12 +16,12 @@
 namespace vsglbench {
 
 struct WorkOptions {
-  std::string scale;            // of the configs; empty: as they are
-  std::filesystem::path out;    // a folder a config below it
+  std::string scale;             // of the configs; empty: as they are
+  std::filesystem::path out;     // a folder a config below it
   std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
-  std::string device;           // as in select_device()
-  bool force = false;           // measure anew
-  bool as_is = false;           // take what the folder holds, whatever made it, and measure nothing
+  std::string device;            // as in select_device()
+  bool force = false;            // measure anew
+  bool as_is = false;            // take what the folder holds, whatever made it, and measure nothing
   std::vector<std::string> argv;
 };
 

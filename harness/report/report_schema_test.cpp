@@ -118,10 +118,9 @@ TEST(ReportSchema, EveryFieldButTheOptionalOnesIsNeeded) {
     expected.push_back(std::string("/cases/0/") + key);
   }
   for (int seed = 0; seed < 8; ++seed) {
-    for (const char* key :
-         {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux", "coverage",
-          "coverage/pdf_overlap", "coverage/pdf_gap", "kernels", "detail", "spikes", "cancellation_rate",
-          "region", "region/bias", "region/detail"})
+    for (const char* key : {"rrmse", "mrse", "bias", "smape_lit", "flip", "flip_p99", "p99_9", "flux",
+                            "coverage", "coverage/pdf_overlap", "coverage/pdf_gap", "kernels", "detail",
+                            "spikes", "cancellation_rate", "region", "region/bias", "region/detail"})
       expected.push_back(fmt::format("/cases/0/seeds/{}/{}", seed, key));
   }
   for (const char* key : {"health", "health/first_bad", "health/first_bad/pass"}) {

@@ -89,19 +89,20 @@ JsonDocument at_scale(const JsonDocument& file, const std::string& scale) {
   if (!scale.empty() && !scales.contains(scale)) {
     std::vector<std::string> known;
     for (const auto& item : scales.items()) known.push_back(item.key());
-    throw file.error("", known.empty() ? fmt::format("has no scale '{}', nor any other", scale)
-                                       : fmt::format("has no scale '{}'; it has {}", scale, fmt::join(known, ", ")));
+    throw file.error("", known.empty()
+                             ? fmt::format("has no scale '{}', nor any other", scale)
+                             : fmt::format("has no scale '{}'; it has {}", scale, fmt::join(known, ", ")));
   }
   Json patch = scale.empty() ? Json::object() : scales.at(scale);
-  if (patch.contains("scales"))
-    throw file.error("/scales/" + pointer_token(scale), "has scales of its own");
+  if (patch.contains("scales")) throw file.error("/scales/" + pointer_token(scale), "has scales of its own");
   patch["scales"] = nullptr;
   const JsonDocument doc = file.patched(patch);
   try {
     check_keys(doc);
   } catch (const Error& e) {  // it stands in the scale, whatever stands elsewhere under this name
     const std::string message = e.what();
-    throw file.error("/scales/" + pointer_token(scale), message.substr(message.find(": ", doc.name().size()) + 2));
+    throw file.error("/scales/" + pointer_token(scale),
+                     message.substr(message.find(": ", doc.name().size()) + 2));
   }
   return doc;
 }

@@ -157,7 +157,8 @@ TEST_F(ConfigTest, AScaleThatIsAbsentOrWrongIsTold) {
     return std::string("no error");
   };
   EXPECT_TRUE(contains(problem_at("quick"), "has no scale 'quick', nor any other"));
-  config_["scales"] = {{"small", {{"N", 4}}}, {"wrong", {{"width", 4}}}, {"nested", {{"scales", Json::object()}}}};
+  config_["scales"] = {
+      {"small", {{"N", 4}}}, {"wrong", {{"width", 4}}}, {"nested", {{"scales", Json::object()}}}};
   EXPECT_TRUE(contains(problem_at("quick"), "has no scale 'quick'; it has small, wrong, nested"));
   EXPECT_TRUE(contains(problem_at("wrong"), "unknown key 'width'")) << problem_at("wrong");
   EXPECT_TRUE(contains(problem_at("wrong"), "'scales/wrong'")) << problem_at("wrong");

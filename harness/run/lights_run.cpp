@@ -200,7 +200,8 @@ void add(std::vector<std::string>* row, const std::optional<Ratio>& ratio) {
 
 std::string coverage_csv(const std::vector<LightsResult>& results) {
   std::string text =
-      "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap,kernel_largest,kernel_over,lights_on_edges,lights_off_edges,"
+      "case,seed,status,lights,empty,overlap,gap,pdf_overlap,pdf_gap,kernel_largest,kernel_over,lights_on_"
+      "edges,lights_off_edges,"
       "edge_sigma_ratio,edge_sigma_ratio_lo,edge_sigma_ratio_hi,"
       "edge_density_ratio,edge_density_ratio_lo,edge_density_ratio_hi\n";
   for (const LightsResult& r : results) {

@@ -98,7 +98,8 @@ std::optional<Report> ReportStore::finished(const Report& fresh) const {
   try {
     Report report = read_report(path_);
     const auto skipped = [](const CaseResult& c) { return c.status == Status::skipped; };
-    if (report.complete && same_run(report, fresh) && std::ranges::none_of(report.cases, skipped)) return report;
+    if (report.complete && same_run(report, fresh) && std::ranges::none_of(report.cases, skipped))
+      return report;
   } catch (const Error&) {  // open() tells of what is damaged
   }
   return std::nullopt;
