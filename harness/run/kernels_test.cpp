@@ -27,6 +27,14 @@ class KernelsTest : public RunFixture {
   }
 };
 
+// `vsglbench lights` simulates all effects, a run those that its scene calls for: sums of the PDF are rounded
+// otherwise.
+void expect_near(const Json& a, const Json& b, const std::string& id) {
+  ASSERT_EQ(a.size(), b.size()) << id;
+  for (const auto& [key, value] : a.items())
+    EXPECT_NEAR(value.get<double>(), b.at(key).get<double>(), 1e-6) << id << " " << key;
+}
+
 // A frame's own lights, and its own PDF: the numbers are those that `vsglbench lights` has of the seed.
 TEST_F(KernelsTest, EverySeedHasThoseOfItsLights) {
   config_["methods"] = {
@@ -42,12 +50,9 @@ TEST_F(KernelsTest, EverySeedHasThoseOfItsLights) {
       const auto of = std::ranges::find(c.seeds, seed, &SeedResult::seed);
       ASSERT_EQ(of->coverage.has_value(), c.method != "vpl") << c.id;
       ASSERT_EQ(of->kernels.has_value(), c.method == "mfis") << c.id;
-      if (of->coverage) {
-        EXPECT_EQ(part_to_json(*of->coverage), part_to_json(*listed[i].coverage)) << c.id;
-        EXPECT_TRUE(of->coverage->pdf_gap.has_value()) << c.id;
-      }
-      if (!of->kernels) continue;
-      EXPECT_EQ(part_to_json(*of->kernels), part_to_json(*listed[i].kernels)) << c.id;
+      if (of->coverage) expect_near(part_to_json(*of->coverage), part_to_json(*listed[i].coverage), c.id);
+      if (of->coverage) EXPECT_TRUE(of->coverage->pdf_gap.has_value()) << c.id;
+      if (of->kernels) expect_near(part_to_json(*of->kernels), part_to_json(*listed[i].kernels), c.id);
     }
   }
   const SeedResult &first = r.cases[0].seeds[0], &second = r.cases[0].seeds[1];
