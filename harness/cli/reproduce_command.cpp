@@ -202,7 +202,7 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
                       "Vulkan device: index, UUID, PCI address or part of its name");
   command->add_flag("--force", options->work.force, "measure anew what is finished");
   command->add_flag("--as-is", options->work.as_is,
-                    "measure nothing: take what --out holds, whatever programme made it");
+                    "take what is finished in --out, whatever programme made it: the page says which");
   command->add_option("--exhibits", options->exhibits,
                       "a list of your own (default: harness/papers/exhibits.json)");
   command->add_option("--claims", options->claims,

@@ -76,10 +76,19 @@ TEST_F(Reproduce, WhatIsFinishedStands) {
   WorkOptions anew = options();
   anew.force = true;
   EXPECT_NE(make(anew)["tables"], first["tables"]);  // times of other frames
+}
+
+TEST_F(Reproduce, AsItIsTakesWhatAnotherProgrammeMade) {
+  const Json first = make(options());
+  const fs::path file = folder_ / "out" / "tiny" / "report.json";
+  Report report = read_report(file);
+  report.git.commit = std::string(40, '0');
+  write_report(file, report);
   WorkOptions as_is = options();
   as_is.as_is = true;
-  as_is.out = folder_ / "nowhere";
-  EXPECT_FALSE(make(as_is)["problems"].empty());
+  EXPECT_EQ(make(as_is)["tables"], first["tables"]);
+  EXPECT_EQ(make(as_is)["measured"][0]["commit"], std::string(40, '0'));
+  EXPECT_NE(make(options())["measured"][0]["commit"], std::string(40, '0'));  // measured anew
 }
 
 TEST_F(Reproduce, WhatFailsCostsItself) {

@@ -32,11 +32,7 @@ Json identity(const WorkOptions& options, Json of) {
 // The result that lies there, if it is the one that is wanted.
 std::optional<Json> made_before(const fs::path& folder, const Json& wanted, const WorkOptions& options) {
   std::error_code ec;
-  if (options.force || !fs::exists(folder / kMadeFile, ec)) {
-    if (!options.as_is) return std::nullopt;
-    throw fail(ErrorKind::output, "{}: does not exist; without --as-is it is made",
-               (folder / kMadeFile).string());
-  }
+  if (options.force || !fs::exists(folder / kMadeFile, ec)) return std::nullopt;
   try {
     const Json made = JsonDocument::load(folder / kMadeFile, ErrorKind::output).root();
     if (options.as_is || made.at("identity") == wanted) return made.at("result");
@@ -44,6 +40,14 @@ std::optional<Json> made_before(const fs::path& folder, const Json& wanted, cons
     log_warning("{}: {}; it is made anew", (folder / kMadeFile).string(), e.what());
   }
   return std::nullopt;
+}
+
+// A whole report, whatever made it.
+std::optional<Report> complete_at(const fs::path& folder) {
+  std::error_code ec;
+  if (!fs::exists(folder / "report.json", ec)) return std::nullopt;
+  Report report = read_report_at(folder);
+  return report.complete ? std::optional(std::move(report)) : std::nullopt;
 }
 
 void keep(const fs::path& folder, const Json& id, const Json& result) {
@@ -82,7 +86,8 @@ const Work<Report>& PapersWork::run(const std::string& config) {
   const auto known = runs_.find(config);
   if (known != runs_.end()) return known->second;
   const fs::path where = folder(config);
-  if (options_.as_is) return runs_.emplace(config, Work<Report>{read_report_at(where), where}).first->second;
+  if (auto report = options_.as_is ? complete_at(where) : std::nullopt)
+    return runs_.emplace(config, Work<Report>{std::move(*report), where}).first->second;
   RunOptions options{.config = config_path(config),
                      .out = where,
                      .assets = options_.assets,

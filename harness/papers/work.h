@@ -21,7 +21,7 @@ struct WorkOptions {
   std::filesystem::path assets;  // empty: $VSGLBENCH_ASSETS
   std::string device;            // as in select_device()
   bool force = false;            // measure anew
-  bool as_is = false;            // take what the folder holds, whatever made it, and measure nothing
+  bool as_is = false;            // take what is finished there, whatever programme made it
   std::vector<std::string> argv;
 };
 
@@ -33,7 +33,7 @@ struct Work {
 };
 
 // For a process without threads and without a Vulkan device: it forks. Everything throws Error for what
-// stops a config as a whole, such as Error(output) for `as_is` where nothing lies.
+// stops a config as a whole.
 class PapersWork {
  public:
   explicit PapersWork(WorkOptions options) : options_(std::move(options)) {}

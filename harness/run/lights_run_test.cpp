@@ -238,11 +238,13 @@ TEST_P(LightsRunTest, MomentsAreMeansOverTheRsmsTexels) {
       ++lit;
       ASSERT_LT(glm::length(glm::dvec3(t.position) - sums[i].position / all), 1e-4);
       ASSERT_NEAR(t.square, sums[i].square / all, 1e-4 * std::max(1.0, sums[i].square / all));
-      if (diffuse > 0)
+      if (diffuse > 0) {
         ASSERT_LT(glm::length(glm::dvec3(t.diffuse_direction) - sums[i].diffuse_direction / diffuse), 1e-4);
-      if (specular > 0)
+      }
+      if (specular > 0) {
         ASSERT_LT(glm::length(glm::dvec3(t.specular_direction) - sums[i].specular_direction / specular),
                   1e-4);
+      }
     }
     EXPECT_GT(lit, 0u);
   }
