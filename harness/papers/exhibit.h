@@ -46,6 +46,7 @@ struct Exhibit {
   std::vector<std::string> light_cases;        // globs over their case ids; empty: all
   std::string figure;                          // config for `figure`; empty: none
   uint32_t quick_width = 0, quick_height = 0;  // of it at scale "quick"; 0: its own
+  bool edges = false;  // whether lights are larger and darker on discontinuous geometry [VSGL14 Fig. 2]
   bool code_size = false;
   std::vector<PublishedColumn> table;
   std::vector<std::string> columns;  // of the report's own table, as `table --columns`; empty: none is shown

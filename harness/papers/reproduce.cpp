@@ -214,7 +214,7 @@ void ExhibitWork::take_lights(const std::string& config) {
     if (r.status != Status::ok)
       json_["problems"].push_back(fmt::format("{}: {}: {}", r.id, name(r.status), r.error));
   }
-  add(trials_of(work.result, exhibit_));
+  if (exhibit_.edges) add(trials_of(work.result, exhibit_));
   for (const SheetPart& part : exhibit_.sheet) {
     if (part.run == config + "-lights") rows_.push_back(files_of(work.folder, part));
   }

@@ -12,7 +12,7 @@ namespace vsglbench {
 namespace {
 
 constexpr uint32_t kMargin = 20, kGap = 14, kLine = 19, kTitleHeight = 40, kRowTitle = 28, kDetailLines = 2;
-constexpr uint32_t kNarrowest = 64;
+constexpr uint32_t kNarrowest = 64, kLeastTile = 220, kMostTile = 400;
 
 // The sRGB curve backwards.
 float linear(uint8_t value) {
@@ -142,6 +142,12 @@ Bitmap thumbnail(const Bitmap& picture, uint64_t bytes) {
 }
 
 Bitmap draw_sheet(const std::string& title, const std::vector<SheetRow>& rows, uint32_t tile, uint32_t most) {
+  if (tile == 0) {
+    size_t longest = 1;
+    for (const SheetRow& row : rows) longest = std::max(longest, row.tiles.size());
+    const auto room = static_cast<uint32_t>((most - 2 * kMargin + kGap) / longest);
+    tile = std::clamp(room > kGap ? room - kGap : 0, kLeastTile, kMostTile);
+  }
   const std::vector<Block> blocks = blocks_of(rows, tile, most);
   if (blocks.empty()) throw fail(ErrorKind::output, "{}: there is no picture for its sheet", title);
   size_t across = 1;

@@ -21,8 +21,9 @@ struct SheetRow {
 };
 
 // Rows below each other. A row wraps where it is wider than `most` pixels. Pictures are reduced to
-// `tile` pixels of width (smaller ones enlarged by whole factors). Throws Error(output) for no tile.
-Bitmap draw_sheet(const std::string& title, const std::vector<SheetRow>& rows, uint32_t tile = 400,
+// `tile` pixels of width (smaller ones enlarged by whole factors); 0: as wide as lets the longest row fit,
+// 400 at most and 220 at least. Throws Error(output) for no tile.
+Bitmap draw_sheet(const std::string& title, const std::vector<SheetRow>& rows, uint32_t tile = 0,
                   uint32_t most = 2048);
 
 // The picture at `width` pixels, by the mean over each pixel's area in linear light; as it is where it is no

@@ -79,6 +79,16 @@ TEST(Sheet, TilesKeepTheirShapeAndWrap) {
   EXPECT_NEAR(static_cast<double>(tile_pixels(narrow)), 5 * 100 * 50, 50);
 }
 
+TEST(Sheet, TilesAreAsWideAsLetsTheLongestRowFit) {
+  SheetRow six{"", {}}, one{"", {}};
+  for (int i = 0; i < 6; ++i) six.tiles.push_back({flat(900, 30, 200), "c", ""});
+  one.tiles.push_back({flat(900, 30, 200), "c", ""});
+  const Bitmap sheet = draw_sheet("t", {one, six});
+  EXPECT_LE(sheet.width, 2048u);
+  EXPECT_GT(sheet.width, 1950u);
+  EXPECT_NEAR(draw_sheet("t", {one}).width, 440, 2);
+}
+
 TEST(Sheet, SmallPicturesAreEnlargedByWholeFactorsAndAlphaIsDropped) {
   const Bitmap sheet = draw_sheet("t", {{"", {{flat(30, 30, 200, 4), "c", ""}}}}, 100, 2048);
   EXPECT_GE(sheet.width, 130u);
