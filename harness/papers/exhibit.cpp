@@ -36,6 +36,7 @@ Exhibit exhibit_of(const Json& json) {
   e.figure = json.value("figure", "");
   e.quick_width = json.value("quick_width", 0u);
   e.quick_height = json.value("quick_height", 0u);
+  e.largest_kernel = json.value("largest_kernel", false);
   e.edges = json.value("edges", false);
   e.code_size = json.value("code_size", false);
   e.columns = json.value("columns", Strings());

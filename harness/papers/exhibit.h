@@ -46,6 +46,8 @@ struct Exhibit {
   std::vector<std::string> light_cases;        // globs over their case ids; empty: all
   std::string figure;                          // config for `figure`; empty: none
   uint32_t quick_width = 0, quick_height = 0;  // of it at scale "quick"; 0: its own
+  // Lights are drawn of the seed in which `fis` has its largest kernel in the first run; else of seed 0.
+  bool largest_kernel = false;
   bool edges = false;  // whether lights are larger and darker on discontinuous geometry [VSGL14 Fig. 2]
   bool code_size = false;
   std::vector<PublishedColumn> table;

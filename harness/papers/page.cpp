@@ -181,6 +181,9 @@ std::string exhibit_text(const Json& e) {
   if (e.contains("sheet")) out += fmt::format("![{0}]({0})\n\n", cell(e["sheet"]));
   for (const Json& problem : e.at("problems"))
     out += fmt::format("Not made: {}.\n\n", cell(problem.get<std::string>()));
+  for (const Json& note : e.value("notes", Json::array()))
+    out += fmt::format("* {}.\n", cell(note.get<std::string>()));
+  if (e.contains("notes")) out += '\n';
   if (const std::string published = machines(e); !published.empty())
     out += fmt::format("Published on {}; here on {}.\n\n", published,
                        e.contains("device") ? cell(e["device"].at("name")) : cell(e.at("host").at("cpu")));

@@ -185,6 +185,7 @@ void ExhibitWork::take_run(const std::string& config) {
   const Work<Report>& work = work_.run(config);
   const Report& report = work.result;
   note_machine(report.device);
+  json_["host"] = {{"cpu", report.host.cpu}, {"cores", report.host.cores}};  // perhaps another machine's
   json_["measured"].push_back({{"config", config},
                                {"created", report.created},
                                {"commit", report.git.commit},
@@ -208,8 +209,54 @@ void ExhibitWork::take_run(const std::string& config) {
   }
 }
 
+// Of all ok cases of `fis`, by what its kernels hold of the PDF.
+uint32_t seed_of_largest_kernel(const Report& report) {
+  double largest = 0;
+  uint64_t seed = 0;
+  for (const CaseResult& c : report.cases) {
+    for (const SeedResult& s : c.seeds) {
+      if (c.method != "fis" || !s.kernels || s.kernels->largest <= largest) continue;
+      largest = s.kernels->largest;
+      seed = s.seed;
+    }
+  }
+  return static_cast<uint32_t>(seed);
+}
+
+// The light of a drawn case whose kernel holds most, and how many of all seeds hold too much.
+std::string largest_kernel_note(const Work<std::vector<LightsResult>>& work, const LightsResult& drawn) {
+  const Json json = JsonDocument::load(work.folder / drawn.folder / "lights.json", ErrorKind::output).root();
+  double power = 0;
+  const Json* largest = nullptr;
+  for (const Json& light : json.at("lights")) {
+    power += light.at("power").get<double>();
+    if (light.contains("mass") && (!largest || light["mass"] > largest->at("mass"))) largest = &light;
+  }
+  if (!largest) return "";
+  double over = 0;
+  uint64_t lights = 0, seeds = 0;
+  for (const LightsResult& r : work.result) {
+    if (r.id != drawn.id || !r.kernels) continue;
+    over += r.kernels->over * static_cast<double>(r.lights);
+    lights += r.lights;
+    ++seeds;
+  }
+  return fmt::format(
+      "{}: in seed {} light {} of {} holds {:.3g} times 1/N of the PDF and carries {:.3g} % of the power; of "
+      "the "
+      "lights of {} seeds {:.0f} of {} hold more than 4/N",
+      drawn.id, drawn.seed, largest->at("index").get<int>(), drawn.lights, largest->at("mass").get<double>(),
+      100 * largest->at("power").get<double>() / power, seeds, over, lights);
+}
+
 void ExhibitWork::take_lights(const std::string& config) {
-  const auto& work = work_.lights(config, exhibit_.light_cases);
+  const uint32_t seed =
+      exhibit_.largest_kernel ? seed_of_largest_kernel(work_.run(exhibit_.runs.at(0)).result) : 0;
+  const auto& work = work_.lights(config, exhibit_.light_cases, seed);
+  for (const LightsResult& r : work.result) {
+    if (!exhibit_.largest_kernel || r.status != Status::ok || r.seed != seed) continue;
+    if (const std::string note = largest_kernel_note(work, r); !note.empty()) json_["notes"].push_back(note);
+  }
   for (const LightsResult& r : work.result) {
     if (r.status != Status::ok)
       json_["problems"].push_back(fmt::format("{}: {}: {}", r.id, name(r.status), r.error));

@@ -100,13 +100,14 @@ const Work<Report>& PapersWork::run(const std::string& config) {
 }
 
 const Work<std::vector<LightsResult>>& PapersWork::lights(const std::string& config,
-                                                          const std::vector<std::string>& cases) {
-  const std::string key = fmt::format("{}-lights {}", config, fmt::join(cases, " "));
+                                                          const std::vector<std::string>& cases,
+                                                          uint32_t seed) {
+  const std::string key = fmt::format("{}-lights {} {}", config, seed, fmt::join(cases, " "));
   const auto known = lights_.find(key);
   if (known != lights_.end()) return known->second;
   const fs::path where = folder(config + "-lights");
-  const Json id =
-      identity(options_, {load_config(config_path(config), Json::object(), options_.scale).resolved, cases});
+  const Json id = identity(
+      options_, {load_config(config_path(config), Json::object(), options_.scale).resolved, cases, seed});
   std::vector<LightsResult> results;
   if (const auto made = made_before(where, id, options_)) {
     results = lights_from(*made);
@@ -117,6 +118,7 @@ const Work<std::vector<LightsResult>>& PapersWork::lights(const std::string& con
                           .assets = options_.assets,
                           .cases = cases,
                           .device = options_.device,
+                          .seed = seed,
                           .seeds = kSeeds,
                           .argv = options_.argv});
     Json told = Json::array();

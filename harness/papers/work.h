@@ -40,9 +40,9 @@ class PapersWork {
 
   // Interrupted ones are gone on with. The second time the first's.
   const Work<Report>& run(const std::string& config);
-  // Pictures of seed 0, coverage of `kSeeds`.
+  // Pictures of `seed`, coverage of `kSeeds` from there.
   const Work<std::vector<LightsResult>>& lights(const std::string& config,
-                                                const std::vector<std::string>& cases);
+                                                const std::vector<std::string>& cases, uint32_t seed);
   // Width and height: 0 for the config's own.
   const Work<DrawnFigure>& figure(const std::string& config, uint32_t width, uint32_t height);
   const Json& code_sizes();  // device, sizes: what `code-size --json` prints
