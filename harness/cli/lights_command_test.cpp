@@ -38,7 +38,9 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
     EXPECT_GT(read_png(folder(method) / "scene.png").width, 900u) << method;
     const bool filters = std::string(method) == "mfis";
     EXPECT_EQ(fs::exists(folder(method) / "moments.png"), filters) << method;
-    if (filters) EXPECT_EQ(read_png(folder(method) / "moments.png").width, 996u);
+    if (filters) {
+      EXPECT_EQ(read_png(folder(method) / "moments.png").width, 996u);
+    }
     const Json j = json(method);
     expect_numbers(j);
     EXPECT_EQ(j.at("schema"), "vsglbench.lights/2");
