@@ -43,6 +43,7 @@ std::vector<std::vector<std::string>> printed_table(const std::string& file, con
         for (size_t at; (at = cell.find(mark)) != std::string::npos;)
           cell.erase(at, std::string(mark).size());
       }
+      if (const size_t at = cell.find("k -means"); at != std::string::npos) cell.erase(at + 1, 1);  // italics
       cells.push_back(cell);
     }
     if (cells.size() > 2) out.push_back(cells);

@@ -33,24 +33,26 @@ Json page_of(const Json& trials) {
                       {"mean", 10.0},
                       {"ci95", {9.9, 10.1}},
                       {"sum", true}}};
+  const Json host = {{"cpu", "CPU"}, {"cores", 2}};
+  const Json table = {{"scene", "box"}, {"unit", "ms"}, {"rows", rows}};
+  const Json exhibit = {{"name", "tab1"},
+                        {"source", "[P Tab. 1]"},
+                        {"title", "Times"},
+                        {"scale", "quick"},
+                        {"command", "vsglbench reproduce tab1"},
+                        {"commit", "0123456789"},
+                        {"dirty", false},
+                        {"wall_s", 12.0},
+                        {"host", host},
+                        {"measured", Json::array()},
+                        {"sheet", "tab1.png"},
+                        {"problems", Json::array({"room: its asset is absent"})},
+                        {"reports", Json::array()},
+                        {"tables", Json::array({table})},
+                        {"trials", trials}};
   return {{"device", {{"name", "llvm|pipe"}, {"type", "cpu"}, {"driver", "Mesa"}, {"driver_version", "1"}}},
-          {"host", {{"cpu", "CPU"}, {"cores", 2}}},
-          {"exhibits",
-           {{{"name", "tab1"},
-             {"source", "[P Tab. 1]"},
-             {"title", "Times"},
-             {"scale", "quick"},
-             {"command", "vsglbench reproduce tab1"},
-             {"commit", "0123456789"},
-             {"dirty", false},
-             {"wall_s", 12.0},
-             {"host", {{"cpu", "CPU"}, {"cores", 2}}},
-             {"measured", Json::array()},
-             {"sheet", "tab1.png"},
-             {"problems", {"room: its asset is absent"}},
-             {"reports", Json::array()},
-             {"tables", {{{"scene", "box"}, {"unit", "ms"}, {"rows", rows}}}},
-             {"trials", trials}}}}};
+          {"host", host},
+          {"exhibits", Json::array({exhibit})}};
 }
 
 size_t count(const std::string& text, const std::string& part) {
@@ -60,7 +62,7 @@ size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(PapersPage, HasPublishedAndMeasuredSideBySide) {
-  const std::string page = papers_page(page_of({trial("x", "holds")}));
+  const std::string page = papers_page(page_of(Json::array({trial("x", "holds")})));
   EXPECT_EQ(count(page, "| FIS | Sample | 0.5 | 5 [4.9, 5.1] | 10 | 25.0 % | 50.0 % |"), 1u) << page;
   EXPECT_EQ(count(page, "|  | **Total** | 2.0 | 10 [9.9, 10.1] | 5 | 100.0 % | 100.0 % |"), 1u) << page;
   EXPECT_EQ(count(page, "![tab1.png](tab1.png)"), 1u);
@@ -69,9 +71,9 @@ TEST(PapersPage, HasPublishedAndMeasuredSideBySide) {
 }
 
 TEST(PapersPage, TellsAClaimInOneWordAndHowOften) {
-  const std::string page = papers_page(
-      page_of({trial("x", "holds"), trial("x", "undecided", "room"), trial("y", "holds"),
-               trial("y", "does not hold", "room"), trial("z", "does not hold"), trial("u", "undecided")}));
+  const std::string page = papers_page(page_of(Json::array(
+      {trial("x", "holds"), trial("x", "undecided", "room"), trial("y", "holds"),
+       trial("y", "does not hold", "room"), trial("z", "does not hold"), trial("u", "undecided")})));
   EXPECT_EQ(count(page, "Of 4 claims: 1 holds, 1 in part, 1 undecided, 1 does not hold."), 1u) << page;
   EXPECT_EQ(count(page, "| **holds** | holds 1, undecided 1 | [tab1](#tab1) |"), 1u) << page;
   EXPECT_EQ(count(page, "| **in part** | holds 1, does not hold 1 | [tab1](#tab1) |"), 1u) << page;

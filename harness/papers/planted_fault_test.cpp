@@ -37,10 +37,12 @@ class PlantedFault : public ::testing::Test {
     WorkOptions options;
     options.scale = kQuickScale;
     options.out = folder_ / out;
+    options.argv = {"vsglbench", "reproduce"};
     options.assets = folder_;  // no scene that needs a download: the same everywhere
     PapersWork work(options);
     const Exhibit e = select_exhibits(load_exhibits(), {exhibit}).front();
-    return {{"exhibits", {reproduce_exhibit(e, load_claims(), &work, kQuickScale, folder_)}}};
+    const Json made = reproduce_exhibit(e, load_claims(), &work, kQuickScale, folder_);
+    return {{"exhibits", Json::array({made})}};
   }
 
   void expect_flip(const std::string& exhibit, const Fault& fault, const std::string& claim) const {

@@ -27,7 +27,7 @@ Trial made(const std::string& claim, Ruling ruling, double ratio = 0.5) {
 Json papers(const std::vector<Trial>& trials, const std::string& scale = "quick") {
   Json exhibit = {{"name", "fig"}, {"scale", scale}, {"trials", Json::array()}};
   for (const Trial& t : trials) exhibit["trials"].push_back(to_json(t));
-  return {{"exhibits", {exhibit}}};
+  return {{"exhibits", Json::array({exhibit})}};
 }
 
 TEST(Trial, SurvivesJson) {
