@@ -69,7 +69,6 @@ std::string as_code(const std::string& metric) {
 std::string markdown(const TriedClaim& tried) {
   std::string out = fmt::format("**{}**: {}. {} {}\n\n{}.\n\n", tried.claim.name, summary(tried),
                                 tried.claim.text, tried.claim.source, comparison_text(tried.claim));
-  if (const std::string why = why_not_at_all(tried); !why.empty()) return out + "Not run: " + why + ".\n\n";
   out += "| scene | metric | ruling | ratio [95 %] | pairs, each alone |\n| --- | --- | --- | ---: | --- |\n";
   for (const ClaimRow& r : tried.rows)
     out += fmt::format("| {} | {} | {} | {} | {} |\n", printable(r.scene), as_code(r.metric), name(r.ruling),
@@ -105,7 +104,16 @@ std::string comparison_text(const PaperClaim& c) {
 
 std::string claims_text(const Report& report, const std::vector<TriedClaim>& claims, bool as_markdown) {
   std::string out;
-  for (const TriedClaim& c : claims) out += as_markdown ? markdown(c) : terminal(c) + "\n";
+  std::string not_run;
+  for (const TriedClaim& c : claims) {
+    const std::string why = as_markdown ? why_not_at_all(c) : "";
+    if (why.empty()) {
+      out += as_markdown ? markdown(c) : terminal(c) + "\n";
+    } else {
+      not_run += fmt::format("* {}: {}\n", c.claim.name, why);
+    }
+  }
+  if (!not_run.empty()) out += "Not run here:\n\n" + not_run + "\n";
   return printable_lines(out) +
          fmt::format(
              "ratios: geometric means over pairs of cases alike in all else, with Student's interval over "

@@ -235,8 +235,8 @@ TEST(ShippedScenes, AllAreListed) {
     EXPECT_EQ(info.asset.empty(), info.get_it.empty()) << info.name;
   }
   EXPECT_EQ(names, (std::vector<std::string>{"colonnade", "colonnade-dynamic", "columns-walk", "conference",
-                                             "cornell", "cornell-glossy", "ring514", "ring514-turning",
-                                             "sponza", "sponza-dynamic"}));
+                                             "conference-published", "cornell", "cornell-glossy", "ring514",
+                                             "ring514-turning", "sponza", "sponza-dynamic"}));
 }
 
 TEST(ShippedScenes, AbsentAssetSaysWhichAndWhere) {
