@@ -79,7 +79,7 @@ class Page {
     const fs::path kept =
         command_.page.empty() ? fs::path("reports") / "papers" / folder_name(device) : command_.page;
     committed_ = papers_at(command_.against.empty() ? kept / "papers.json" : command_.against);
-    folder_ = command_.check ? command_.out / "page" : kept;
+    folder_ = command_.check ? command_.out / "check" : kept;
     if (!command_.check && command_.against.empty()) earlier_ = committed_.value_or(Json::object());
     papers_ = {
         {"schema", kPapersSchema}, {"argv", command_.work.argv}, {"device", of}, {"exhibits", Json::array()}};

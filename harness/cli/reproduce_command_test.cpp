@@ -9,7 +9,8 @@ namespace {
 
 class ReproduceCommand : public CliTest {
  protected:
-  ReproduceCommand() {
+  void SetUp() override {
+    CliTest::SetUp();
     const Json config = {{"name", "tiny"},
                          {"scenes", {"cornell"}},
                          {"methods", {{{"method", "fis"}}, {{"method", "mfis"}}}},
@@ -45,23 +46,24 @@ class ReproduceCommand : public CliTest {
                 "--exhibits", write("exhibits.json", exhibits.dump()).string(),
                 "--claims",   write("claims.json", claims.dump()).string(),
                 "--out",      out_.string(),
-                "--page",     (out_ / "page").string()};
+                "--page",     (folder_ / "page").string()};
   }
   Finished reproduce(const std::vector<std::string>& more) const {
     std::vector<std::string> all = command_;
     all.insert(all.end(), more.begin(), more.end());
     return run(all);
   }
-  Json papers() const { return Json::parse(read_text(out_ / "page" / "papers.json")); }
+  Json papers() const { return Json::parse(read_text(folder_ / "page" / "papers.json")); }
   std::vector<std::string> command_;
 };
 
 TEST_F(ReproduceCommand, MakesAPageAndChecksAgainstIt) {
   const Finished first = reproduce({});
-  ASSERT_EQ(first.code, 0) << first.err;
-  EXPECT_TRUE(contains(first.out, "holds"));
-  EXPECT_TRUE(contains(read_text(out_ / "page" / "README.md"), "Both err alike"));
-  EXPECT_TRUE(std::filesystem::exists(out_ / "page" / "one.png"));
+  ASSERT_EQ(first.code, 0) << first.out << first.err;
+  EXPECT_TRUE(contains(first.out, "holds")) << first.out;
+  EXPECT_TRUE(contains(first.out, (folder_ / "page" / "README.md").string())) << first.out << first.err;
+  EXPECT_TRUE(contains(read_text(folder_ / "page" / "README.md"), "Both err alike"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "page" / "one.png"));
   ASSERT_EQ(papers()["exhibits"].size(), 2u);
   EXPECT_EQ(papers()["exhibits"][0]["scale"], "quick");
 
@@ -75,7 +77,7 @@ TEST_F(ReproduceCommand, MakesAPageAndChecksAgainstIt) {
   EXPECT_TRUE(contains(same.out, "0 verdicts flipped"));
   Json other = papers();
   other["exhibits"][0]["trials"][0]["ruling"] = "does not hold";
-  write_text(out_ / "page" / "papers.json", other.dump());
+  write_text(folder_ / "page" / "papers.json", other.dump());
   const Finished flipped = reproduce({"--check"});
   EXPECT_EQ(flipped.code, 4) << flipped.out << flipped.err;
   EXPECT_TRUE(contains(flipped.out, "FLIPPED [P §5]: now holds: Both err alike (one, cornell, rmse;"));
@@ -86,7 +88,7 @@ TEST_F(ReproduceCommand, RefusesWhatItCannotMake) {
   expect_refused(reproduce({"three"}), 2, "no table or figure 'three'");
   expect_refused(reproduce({"--scale", "huge"}), 2, "--scale");
   write("damaged.json", "{\"schema\": \"vsglbench.papers/1\", \"exhibits\": [{}]}");
-  const Finished damaged = reproduce({"one", "--against", (out_.parent_path() / "damaged.json").string()});
+  const Finished damaged = reproduce({"one", "--against", (folder_ / "damaged.json").string()});
   EXPECT_EQ(damaged.signal, 0);
 }
 
