@@ -32,9 +32,9 @@ const std::vector<ShadingAxis>& shading_axes() {
        "a light's variance: the paper's of three dimensions [MFIS16 App. B.2], or half of it, a disk's"},
       {"receiver",
        "RECEIVER_LOBE",
-       {"asg", "sg"},
-       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], or its NDF widened by the light's "
-       "SG"},
+       {"asg", "sg", "isotropic"},
+       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], its NDF widened by the light's SG, or "
+       "one SG about the mirror direction [VSGL15s App. A]"},
       {"lambert_sharpness",
        "LAMBERT_LOBE",
        {"2", "2.2925"},

@@ -220,7 +220,7 @@ std::vector<ErrorRow> disk_errors(ShadingProbe& probe) {
 
 // A light that radiates alike in all directions is an SG of sharpness d²/σ²: here as sharp as the receiver's
 // lobe, on the lobe's axis and a width of the lobe off it.
-std::vector<ErrorRow> filtered_errors(ShadingProbe& probe) {
+std::vector<ErrorRow> even_light_errors(ShadingProbe& probe, const std::string& receiver) {
   std::vector<PairRow> rows;
   for (const float ndf : {-30.0f, -1023.0f, 0.1f, 0.3f, 1.0f}) {
     const double width = std::min(2 / std::sqrt(sharpness_of(ndf)), radians(30));
@@ -239,7 +239,7 @@ std::vector<ErrorRow> filtered_errors(ShadingProbe& probe) {
       rows.push_back(row);
     }
   }
-  return errors_of(probe, rows, ProbeMode::vsgl, {{"RECEIVER_LOBE", "1"}},
+  return errors_of(probe, rows, ProbeMode::vsgl, {{"RECEIVER_LOBE", receiver}},
                    [](const exact::Surface& s, const ShadingPair& pair) {
                      const double sigma2 = pair.light.variance;
                      const exact::Incoming sg = exact::incoming_sg(dvec3(pair.light.mean), 1 / sigma2);
@@ -272,7 +272,7 @@ std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
 }  // namespace
 
 const std::vector<std::string>& oracle_names() {
-  static const std::vector<std::string> names = {"receiver", "filtered", "emitter",
+  static const std::vector<std::string> names = {"receiver", "filtered", "isotropic", "emitter",
                                                  "gaussian", "disk",     "cancelled"};
   return names;
 }
@@ -280,7 +280,8 @@ const std::vector<std::string>& oracle_names() {
 std::vector<ErrorRow> approximation_errors(Device& device, const std::string& oracle) {
   if (oracle == "receiver") return receiver_errors(device);
   ShadingProbe probe(device);
-  if (oracle == "filtered") return filtered_errors(probe);
+  if (oracle == "filtered") return even_light_errors(probe, "1");
+  if (oracle == "isotropic") return even_light_errors(probe, "2");
   if (oracle == "emitter") return emitter_errors(probe);
   if (oracle == "gaussian") return gaussian_errors(probe);
   return oracle == "disk" ? disk_errors(probe) : cancelled_errors(probe);

@@ -23,6 +23,7 @@ struct ErrorRow {
 // The oracles, each a part of what shading approximates:
 //  receiver   the receiver's specular lobe as an ASG, under an SG [MFIS16 App. C.2]
 //  filtered   the same with the NDF widened by the SG in place of the ASG, `receiver` sg
+//  isotropic  the same rows with one SG about the mirror direction, `receiver` isotropic
 //  emitter    a set of texels' exact BRDFs as one SG [MFIS16 App. B.1], seen from far away; angle: of the
 //  primary light at
 //             the texels

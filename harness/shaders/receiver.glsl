@@ -9,7 +9,7 @@
 #include "types.h"
 
 // What the specular lobe is: 0 asg, an anisotropic SG; 1 sg, the BRDF itself with its NDF widened by the
-// light's SG.
+// light's SG; 2 isotropic, one SG about the mirror direction.
 #ifndef RECEIVER_LOBE
 #define RECEIVER_LOBE 0
 #endif
@@ -73,6 +73,15 @@ float receiver_filtered(Receiver r, Sg sg, float vh) {
   }
   return sg_integral(sg.sharpness) * ndf_value(ndf, r.surface.normal, h);
 }
+
+// The same by one SG about the mirror direction, of sharpness λh/(4 n·v) [VSGL15s App. A; MFIS16 App. A.1]:
+// as wide in both directions as the ASG is in their geometric mean. What the papers call less accurate at
+// grazing views than an anisotropic one.
+float receiver_isotropic(Receiver r, Sg sg) {
+  float log_amplitude;
+  Sg product = sg_product(r.z, 2.0 * sqrt(r.eta_x) * sqrt(r.eta_y), sg.axis, sg.sharpness, log_amplitude);
+  return r.peak * exp(log_amplitude) * sg_integral(product.sharpness);
+}
 #endif
 
 // ∫ G(ω;ξ,λ) of the specular lobe, with V · F · `cosine` pulled out of the integral at the SG's axis; 0 where
@@ -82,6 +91,8 @@ vec3 receiver_specular(Receiver r, Sg sg, float cosine) {
   float vh = 0.5 * length(sg.axis + r.surface.view);  // cosine of the half angle
 #if RECEIVER_LOBE == 1
   float lobe = receiver_filtered(r, sg, vh);
+#elif RECEIVER_LOBE == 2
+  float lobe = receiver_isotropic(r, sg);
 #else
   float lobe = receiver_asg(r, sg);
 #endif
