@@ -12,9 +12,10 @@ namespace {
 
 // --- which cases are meant ---
 
-// Numbers by value, so that 1 is 1.0; else as text.
+// Numbers by value, so that 1 is 1.0, in single precision, which is what a report's settings went through;
+// else as text.
 bool equal(const Json& a, const Json& b) {
-  if (a.is_number() && b.is_number()) return a.get<double>() == b.get<double>();
+  if (a.is_number() && b.is_number()) return a.get<float>() == b.get<float>();
   const auto text = [](const Json& v) { return v.is_string() ? v.get<std::string>() : v.dump(); };
   return text(a) == text(b);
 }

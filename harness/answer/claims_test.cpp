@@ -120,6 +120,19 @@ TEST(Claims, HowTheLightsLieIsComparedSeedBySeed) {
   }
 }
 
+// A setting of 0.001 stands in a report as the nearest single-precision number.
+TEST(Claims, SettingsAreComparedInSinglePrecision) {
+  MadeReport r(1, 0, 0.1);
+  for (const double alpha : {0.0, 0.001}) {
+    MadeCase c = made("fis", 64, alpha > 0 ? 5 : 10);
+    c.parameters["bias_reduction"] = static_cast<double>(static_cast<float>(alpha));
+    r.add(c);
+  }
+  const ClaimRow row = only_row(r.report, claim_of({{"bias_reduction", 0.001}}, {{"bias_reduction", 0}}));
+  EXPECT_EQ(row.ruling, Ruling::holds) << row.why;
+  EXPECT_NEAR(row.ratio, 0.5, 1e-9);
+}
+
 // A set without a too large kernel counts as one with half of one.
 TEST(Claims, NoTooLargeKernelIsFewerThanSome) {
   MadeReport r(1, 0, 0.1);

@@ -33,7 +33,8 @@ const std::vector<ShadingAxis>& shading_axes() {
       {"receiver",
        "RECEIVER_LOBE",
        {"asg", "sg", "isotropic"},
-       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], its NDF widened by the light's SG, or "
+       "the receiver's specular lobe: an anisotropic SG [VSGL15s App. B], its NDF widened by the light's SG, "
+       "or "
        "one SG about the mirror direction [VSGL15s App. A]"},
       {"lambert_sharpness",
        "LAMBERT_LOBE",
