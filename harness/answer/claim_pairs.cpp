@@ -140,6 +140,12 @@ std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint
   return PairRatio{std::move(logs), *mean, a.of_pairs};
 }
 
+// Of counts: none on either side, in any seed.
+bool tells_nothing(const PairRatio& ratio, const std::string& metric) {
+  if (metric != "spikes" && metric != "kernel_over") return false;
+  return std::ranges::all_of(ratio.by_seed, [](const auto& item) { return item.second == 0; });
+}
+
 // What is noise in a time may be in either direction.
 std::optional<PairRatio> ratio_of_times(const ClaimCase& a, const ClaimCase& b, double noise) {
   if (!a.ms || !b.ms || !(a.ms->ci95.lo > 0) || !(b.ms->ci95.lo > 0)) return std::nullopt;
@@ -347,7 +353,7 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
     }
     for (const ClaimCase* b : others) {
       auto ratio = is_time(metric) ? ratio_of_times(a, *b, noise) : ratio_of_errors(a, b->logs);
-      if (ratio) out.push_back(std::move(*ratio));
+      if (ratio && !tells_nothing(*ratio, metric)) out.push_back(std::move(*ratio));
     }
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <set>
 
 #include "base/child.h"
 #include "base/error.h"
@@ -13,6 +14,7 @@
 #include "image/png.h"
 #include "papers/reproduce.h"
 #include "papers/sheet.h"
+#include "run/config.h"
 
 namespace fs = std::filesystem;
 
@@ -29,31 +31,35 @@ struct ReproduceCommand {
   bool check = false;
 };
 
-// "lavapipe", "h200": the folder of a device's page.
+// "lavapipe", "h200", "rtx3080ti": the folder of a device's page.
 std::string folder_name(const std::string& device) {
   if (device.find("llvmpipe") != std::string::npos) return "lavapipe";
-  std::string word, last;
+  static const std::set<std::string> makers = {"nvidia", "geforce", "amd", "radeon",  "intel",
+                                               "tm",     "r",       "gpu", "graphics"};
+  std::string word, name;
   for (const char c : device + " ") {
     if (std::isalnum(static_cast<unsigned char>(c))) {
       word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    } else if (!word.empty()) {
-      last = word;
+    } else {
+      if (!makers.contains(word)) name += word;
       word.clear();
     }
   }
-  return last.empty() ? "device" : last;
+  return name.empty() ? "device" : name;
 }
 
+// Nothing where there is no file. Throws Error(config) for one that no page can be made of.
 std::optional<Json> papers_at(const fs::path& file) {
   std::error_code ec;
   if (!fs::exists(file, ec)) return std::nullopt;
   const JsonDocument doc = JsonDocument::load(file, ErrorKind::config);
-  if (!doc.root().is_object() || doc.root().value("schema", "") != kPapersSchema)
-    throw doc.error("", fmt::format("is no {}", kPapersSchema));
   try {
+    if (doc.root().at("schema") != kPapersSchema)
+      throw doc.error("/schema", fmt::format("is not {}", kPapersSchema));
     trials_in(doc.root());
+    static_cast<void>(papers_page(doc.root()));
   } catch (const Json::exception& e) {
-    throw doc.error("", e.what());
+    throw doc.error("", fmt::format("is no page's JSON: {}", e.what()));
   }
   return doc.root();
 }
@@ -64,44 +70,47 @@ class Page {
   Page(const ReproduceCommand& command, const std::vector<Exhibit>& all) : command_(command), all_(all) {}
 
   void add(const Json& exhibit) {
-    if (!exhibit.contains("device")) return;  // nothing of it was made
-    if (folder_.empty()) open(exhibit["device"]);
     papers_["exhibits"].push_back(exhibit);
+    if (exhibit.contains("device")) papers_["device"] = exhibit["device"];
+    if (!papers_.contains("device")) return;  // nothing was made yet
+    if (folder_.empty()) open();
     write();
   }
   const Json& papers() const { return papers_; }
   const fs::path& folder() const { return folder_; }
   const std::optional<Json>& committed() const { return committed_; }
+  const fs::path& held_against() const { return held_against_; }
 
  private:
-  void open(const Json& of) {
-    const std::string device = of.at("name");
+  void open() {
+    const std::string device = papers_["device"].at("name");
     const fs::path kept =
         command_.page.empty() ? fs::path("reports") / "papers" / folder_name(device) : command_.page;
-    committed_ = papers_at(command_.against.empty() ? kept / "papers.json" : command_.against);
     folder_ = command_.check ? command_.out / "check" : kept;
-    if (!command_.check && command_.against.empty()) earlier_ = committed_.value_or(Json::object());
-    papers_ = {
-        {"schema", kPapersSchema}, {"argv", command_.work.argv}, {"device", of}, {"exhibits", Json::array()}};
+    held_against_ = command_.against.empty() ? kept / "papers.json" : command_.against;
+    if (command_.check) committed_ = papers_at(held_against_);
   }
+  // What another process has put there in the meantime stays.
   void write() {
-    Json all = merged(earlier_, papers_, all_);
+    const Json earlier =
+        command_.check ? Json::object() : papers_at(folder_ / "papers.json").value_or(Json::object());
+    Json all = merged(earlier, papers_, all_);
     all["host"] = papers_["exhibits"].back().at("host");
+    const std::string text = papers_page(all);
     for (const Json& exhibit : papers_["exhibits"]) {
       if (!exhibit.contains("sheet")) continue;
       const std::string file = exhibit["sheet"];
       write_png(folder_ / file, thumbnail(read_png(command_.out / file), kThumbnailBytes));
     }
     write_text(folder_ / "papers.json", all.dump(1) + "\n");
-    write_text(folder_ / "README.md", papers_page(all));
-    papers_["host"] = all["host"];
+    write_text(folder_ / "README.md", text);
   }
 
   const ReproduceCommand& command_;
   const std::vector<Exhibit>& all_;
-  Json papers_, earlier_ = Json::object();
+  Json papers_ = {{"schema", kPapersSchema}, {"argv", command_.work.argv}, {"exhibits", Json::array()}};
   std::optional<Json> committed_;
-  fs::path folder_;
+  fs::path folder_, held_against_;
 };
 
 void print_trials(const Json& exhibit) {
@@ -120,14 +129,35 @@ void print_trials(const Json& exhibit) {
 int check(const Page& page) {
   if (!page.committed())
     throw fail(ErrorKind::usage, "there is no page to check against: {} does not exist; give --against FILE",
-               (page.folder() / "papers.json").string());
+               page.held_against().string());
+  const Flips found = flips(*page.committed(), page.papers());
+  if (found.compared == 0)
+    throw fail(ErrorKind::usage,
+               "{}: has no verdict of these exhibits at this scale; there is nothing to compare",
+               page.held_against().string());
   size_t lost = 0;
-  for (const Flip& flip : flips(*page.committed(), page.papers())) {
+  for (const Flip& flip : found.changed) {
     fmt::print("{}{}\n", flip.lost ? "FLIPPED " : "changed ", printable(flip_text(flip)));
     lost += flip.lost;
   }
-  fmt::print("{} verdicts flipped\n", lost);
+  fmt::print("{} verdicts compared: {} flipped, {} can be told otherwise; {} are tried no more\n",
+             found.compared, lost, found.changed.size() - lost, found.vanished);
   return lost > 0 ? 4 : 0;
+}
+
+// What is misspelt is found now, not after an hour of measuring.
+void check_names(const std::vector<Exhibit>& exhibits, const std::vector<PaperClaim>& claims,
+                 const std::string& scale) {
+  for (const Exhibit& e : exhibits) {
+    for (const std::string& name : e.claims) {
+      if (std::ranges::count(claims, name, &PaperClaim::name) == 0)
+        throw fail(ErrorKind::config, "{}: no claim is named '{}'", e.name, name);
+    }
+    for (const auto* configs : {&e.runs, &e.lights}) {
+      for (const std::string& config : *configs) load_config(config_path(config), Json::object(), scale);
+    }
+    if (!e.figure.empty()) load_figure_config(config_path(e.figure), 0, 0);
+  }
 }
 
 void on_interrupt(int signal) {
@@ -140,13 +170,21 @@ void reproduce(ReproduceCommand command, CommandResult* result) {
   const std::vector<Exhibit> all = load_exhibits(command.exhibits);
   const std::vector<Exhibit> wanted = select_exhibits(all, command.names);
   const std::vector<PaperClaim> claims = load_claims(command.claims);
+  command.work.scale = command.scale == kPaperScale ? "" : command.scale;
+  check_names(wanted, claims, command.work.scale);
+  if (command.work.force && command.work.as_is)
+    throw fail(ErrorKind::usage, "--force measures anew what --as-is takes as it is; give one of them");
+  if (command.check && !command.against.empty() && !papers_at(command.against))
+    throw fail(ErrorKind::usage, "--against {}: does not exist", command.against.string());
+  if (!command.page.empty()) static_cast<void>(papers_at(command.page / "papers.json"));
+  if (!command.check && !command.against.empty())
+    throw fail(ErrorKind::usage, "--against is of --check; give both");
   if (command.out.empty()) command.out = fs::path("reports") / "out" / "papers" / command.scale;
   ensure_writable_directory(command.out);
   Gnuplot();  // where it is missing, that is said before the work
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   command.work.out = command.out;
-  command.work.scale = command.scale == kPaperScale ? "" : command.scale;
   PapersWork work(command.work);
   Page page(command, all);
   bool whole = true;
@@ -172,18 +210,18 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
       "reproduce", "tables and figures of the papers made anew, beside what is published, on one page");
   command->footer(
       "Each is measured in a folder of its own below --out and goes on where it was interrupted; what is "
-      "finished "
-      "stands as\nlong as config, programme and device are the same. The page, README.md and papers.json "
-      "with "
-      "thumbnails, goes to\nreports/papers/DEVICE; exhibits that were not asked for keep their place on it.\n"
-      "Scales: quick takes a fraction of the published sizes, paper the sizes themselves, which take hours "
-      "on a "
-      "CPU.\nWith --check the page is left alone: verdicts are held against it, and exit code 4 says that "
-      "one has "
-      "flipped, as in\n\"[MFIS16 §5]: no longer holds\".\n"
-      "Exit codes: 0 all made, 1 something was not, 2 bad usage or config, 3 no usable device, 4 a verdict "
-      "has "
-      "flipped.\n"
+      "finished\nstands as long as config, programme and device are the same, and what failed or lacked its "
+      "scene is tried again.\nThe page, README.md and papers.json with thumbnails, goes to "
+      "reports/papers/DEVICE; exhibits that were not asked for\nkeep their place on it.\n"
+      "Scales: quick takes a fraction of the sizes, paper the configs as they are: the published sizes, but "
+      "for "
+      "what moves.\n"
+      "With --check the page is left alone, and a new one goes to OUT/check: verdicts are held against it, "
+      "and "
+      "exit code 4\nsays that one has flipped, as in \"[MFIS16 §5]: no longer holds\".\n"
+      "Exit codes: 0 all made, 1 something was not (a scene that is not on this machine, too), 2 bad usage "
+      "or "
+      "config,\n3 no usable device, 4 a verdict has flipped.\n"
       "Example: vsglbench reproduce mfis16-tab1 mfis16-fig5 --scale quick");
   command->add_option("names", options->names, "tables and figures, or all (default)");
   command->add_option("--only", options->names, "the same; may come again")->allow_extra_args(false);

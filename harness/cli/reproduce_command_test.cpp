@@ -74,7 +74,7 @@ TEST_F(ReproduceCommand, MakesAPageAndChecksAgainstIt) {
 
   const Finished same = reproduce({"--check"});
   EXPECT_EQ(same.code, 0) << same.out << same.err;
-  EXPECT_TRUE(contains(same.out, "0 verdicts flipped"));
+  EXPECT_TRUE(contains(same.out, "1 verdicts compared: 0 flipped"));
   Json other = papers();
   other["exhibits"][0]["trials"][0]["ruling"] = "does not hold";
   write_text(folder_ / "page" / "papers.json", other.dump());
@@ -88,8 +88,12 @@ TEST_F(ReproduceCommand, RefusesWhatItCannotMake) {
   expect_refused(reproduce({"three"}), 2, "no table or figure 'three'");
   expect_refused(reproduce({"--scale", "huge"}), 2, "--scale");
   write("damaged.json", "{\"schema\": \"vsglbench.papers/1\", \"exhibits\": [{}]}");
-  const Finished damaged = reproduce({"one", "--against", (folder_ / "damaged.json").string()});
-  EXPECT_EQ(damaged.signal, 0);
+  expect_refused(reproduce({"one", "--check", "--against", (folder_ / "absent.json").string()}), 2,
+                 "does not exist");
+  expect_refused(reproduce({"one", "--force", "--as-is"}), 2, "give one of them");
+  expect_refused(reproduce({"one", "--out", ""}), 2, "needs a folder");
+  expect_refused(reproduce({"one", "--check", "--against", (folder_ / "damaged.json").string()}), 2,
+                 "damaged.json:1: is no page's JSON");
 }
 
 TEST_F(ReproduceCommand, AMisspeltClaimIsTold) {

@@ -13,10 +13,17 @@ namespace {
 constexpr std::array kOrder = {Ruling::holds, Ruling::in_part, Ruling::undecided, Ruling::does_not_hold,
                                Ruling::not_run};
 
-// Of a Markdown table's cell.
+// Text of a file as a page may have it, in a table's cell, too: no markup of its own.
 std::string cell(const std::string& text) {
   std::string out;
-  for (const char c : printable(text)) out += c == '|' ? "\\|" : std::string(1, c);
+  for (const char c : printable(text)) {
+    out += c == '|'   ? "\\|"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '&' ? "&amp;"
+           : c == '`' ? "'"
+                      : std::string(1, c);
+  }
   return out;
 }
 
@@ -70,7 +77,7 @@ Ruling whole(const std::vector<Trial>& trials) {
 std::string places(const Entry& entry) {
   std::vector<std::string> names;
   for (const Trial& t : entry.trials) {
-    const std::string link = fmt::format("[{0}](#{0})", t.exhibit);
+    const std::string link = fmt::format("[{0}](#{0})", cell(t.exhibit));
     if (std::ranges::count(names, link) == 0) names.push_back(link);
   }
   return fmt::format("{}", fmt::join(names, ", "));
@@ -100,11 +107,15 @@ std::string ledger(const Json& papers) {
 
 // --- an exhibit ---
 
-// Shares of the column's sum carry over from one machine to another; milliseconds do not.
+bool is_positive(const std::string& published) {
+  return !published.empty() && published_value(published) > 0;
+}
+
+// Shares of the column's sum, of medians, carry over from one machine to another; milliseconds do not.
 std::string table_text(const Json& table) {
   std::map<std::string, std::pair<double, double>> sums;  // published, measured: by column
   for (const Json& row : table.at("rows")) {
-    if (row.value("sum", false) && row.contains("value"))
+    if (row.value("sum", false) && row.contains("value") && is_positive(row["published"]))
       sums[row["column"]] = {published_value(row["published"]), row["value"]};
   }
   const std::string unit = table.value("unit", "");
@@ -117,11 +128,11 @@ std::string table_text(const Json& table) {
   std::string before;
   for (const Json& row : table.at("rows")) {
     const std::string column = row["column"], published = row["published"];
-    const bool known = !published.empty() && row.contains("value");
+    const bool known = is_positive(published) && row.contains("value");
     const double value = known ? row["value"].get<double>() : 0;
     out += fmt::format("| {} | {} | {} | {} | {} |", column == before ? "" : cell(column),
                        row.value("sum", false) ? fmt::format("**{}**", cell(row["name"])) : cell(row["name"]),
-                       published.empty() ? "-" : published, interval_text(row),
+                       published.empty() ? "-" : cell(published), interval_text(row),
                        known ? number(value / published_value(published)) : "-");
     const auto sum = sums.find(column);
     if (sum != sums.end() && known) {
@@ -164,12 +175,12 @@ std::string trials_text(const Json& exhibit) {
 }
 
 std::string commit_text(const Json& of) {
-  return of.at("commit").get<std::string>().substr(0, 7) +
+  return cell(of.at("commit").get<std::string>().substr(0, 7)) +
          (of.at("dirty").get<bool>() ? " with changes" : "");
 }
 
 std::string exhibit_text(const Json& e) {
-  std::string out = fmt::format("## {}\n\n**{}** {}.\n\n", e.at("name").get<std::string>(),
+  std::string out = fmt::format("## {}\n\n**{}** {}.\n\n", cell(e.at("name").get<std::string>()),
                                 cell(e.at("source")), cell(e.at("title")));
   if (e.contains("differs")) out += fmt::format("Unlike the paper: {}.\n\n", cell(e["differs"]));
   out += fmt::format("`{}`, commit {}", cell(e.at("command")), commit_text(e));
@@ -185,10 +196,11 @@ std::string exhibit_text(const Json& e) {
     out += fmt::format("* {}.\n", cell(note.get<std::string>()));
   if (e.contains("notes")) out += '\n';
   if (const std::string published = machines(e); !published.empty())
-    out += fmt::format("Published on {}; here on {}.\n\n", published,
+    out += fmt::format("Published on {}; here on {}.\n\n", cell(published),
                        e.contains("device") ? cell(e["device"].at("name")) : cell(e.at("host").at("cpu")));
   for (const Json& table : e.at("tables")) out += table_text(table);
-  for (const Json& report : e.at("reports")) out += report.at("markdown").get<std::string>() + "\n";
+  for (const Json& report : e.at("reports"))
+    out += printable_lines(report.at("markdown").get<std::string>()) + "\n";
   return out + trials_text(e);
 }
 
@@ -213,8 +225,7 @@ std::string papers_page(const Json& papers) {
   out += "Exhibits: ";
   std::vector<std::string> links;
   for (const Json& e : papers.at("exhibits"))
-    links.push_back(
-        fmt::format("[{0}](#{0}) ({1})", e.at("name").get<std::string>(), e.at("scale").get<std::string>()));
+    links.push_back(fmt::format("[{0}](#{0}) ({1})", cell(e.at("name")), cell(e.at("scale"))));
   out += fmt::format("{}.\n\n", fmt::join(links, ", "));
   out += ledger(papers);
   for (const Json& e : papers.at("exhibits")) out += exhibit_text(e);

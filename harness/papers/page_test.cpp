@@ -70,6 +70,27 @@ TEST(PapersPage, HasPublishedAndMeasuredSideBySide) {
   EXPECT_EQ(count(page, "llvm|pipe"), 0u);  // would end a cell
 }
 
+TEST(PapersPage, HasNoMarkupOfItsFiles) {
+  Json papers = page_of(Json::array({trial("x`<b>", "holds")}));
+  papers["exhibits"][0]["title"] = "<script>\x1b[2J|\n# head";
+  papers["exhibits"][0]["tables"][0]["rows"][0]["machine"] = "<i>|";
+  papers["exhibits"][0]["scale"] = "<u>";
+  const std::string page = papers_page(papers);
+  for (const char* raw : {"<script", "<b>", "<i>", "<u>", "\x1b", "\n# head"})
+    EXPECT_EQ(count(page, raw), 0u) << raw;
+}
+
+// A published value that is absent, or 0, has no share and no ratio.
+TEST(PapersPage, SharesNeedAPublishedSum) {
+  Json papers = page_of(Json::array());
+  Json& rows = papers["exhibits"][0]["tables"][0]["rows"];
+  for (const char* published : {"", "0"}) {
+    rows[1]["published"] = published;
+    const std::string page = papers_page(papers);
+    EXPECT_EQ(count(page, "inf") + count(page, "nan"), 0u) << page;
+  }
+}
+
 TEST(PapersPage, TellsAClaimInOneWordAndHowOften) {
   const std::string page = papers_page(page_of(Json::array(
       {trial("x", "holds"), trial("x", "undecided", "room"), trial("y", "holds"),
@@ -88,7 +109,8 @@ TEST(PapersPage, AnExhibitMadeAnewTakesItsPlaceAndLeavesTheOthers) {
       {"exhibits", {{{"name", "c"}, {"n", 1}}, {{"name", "a"}, {"n", 1}}, {{"name", "gone"}}}}};
   const Json fresh = {{"exhibits", {{{"name", "b"}, {"n", 2}}, {{"name", "a"}, {"n", 2}}}}};
   const Json out = merged(earlier, fresh, {first, second, third}).at("exhibits");
-  ASSERT_EQ(out.size(), 3u);
+  ASSERT_EQ(out.size(), 4u);
+  EXPECT_EQ(out[3]["name"], "gone");  // of a list that this one does not know
   EXPECT_EQ(out[0], Json({{"name", "a"}, {"n", 2}}));
   EXPECT_EQ(out[1], Json({{"name", "b"}, {"n", 2}}));
   EXPECT_EQ(out[2], Json({{"name", "c"}, {"n", 1}}));

@@ -55,7 +55,7 @@ class PlantedFault : public ::testing::Test {
     write_text(file, text);
     const Json after = make(exhibit, "planted");
     size_t lost = 0, named = 0;
-    for (const Flip& flip : flips(before, after)) {
+    for (const Flip& flip : flips(before, after).changed) {
       fmt::print("{}{}\n", flip.lost ? "FLIPPED " : "changed ", flip_text(flip));
       lost += flip.lost;
       named += flip.lost && flip.before.claim == claim && flip.before.ruling == Ruling::holds;

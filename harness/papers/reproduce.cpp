@@ -119,14 +119,16 @@ SheetRow files_of(const fs::path& folder, const SheetPart& part) {
   std::vector<std::string> paths;
   std::error_code ec;
   for (fs::recursive_directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
+    if (at->path().filename().string().starts_with('.'))
+      continue;  // half written by a process that was killed
     if (at->path().extension() == ".png")
       paths.push_back(at->path().lexically_relative(folder).generic_string());
   }
   std::ranges::sort(paths);
   SheetRow row;
-  for (const std::string& glob : part.files) {
-    for (const std::string& path : paths) {
-      if (!matches_glob(path, glob)) continue;
+  for (const std::string& path : paths) {
+    const auto matches = [&](const std::string& glob) { return matches_glob(path, glob); };
+    if (std::ranges::any_of(part.files, matches)) {
       const std::string caption = path.substr(0, path.size() - 4);
       row.tiles.push_back({read_png(folder / path), caption, ""});
     }
@@ -152,6 +154,7 @@ class ExhibitWork {
   void take_code_size();
   void add_sheet(const fs::path& sheets);
   void note_machine(const DeviceReport& device);
+  void note_machine_of_lights(const Work<std::vector<LightsResult>>& work);
 
   const Exhibit& exhibit_;
   const std::vector<PaperClaim>& claims_;
@@ -181,6 +184,15 @@ void ExhibitWork::note_machine(const DeviceReport& d) {
       {"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}};
 }
 
+void ExhibitWork::note_machine_of_lights(const Work<std::vector<LightsResult>>& work) {
+  for (const LightsResult& r : work.result) {
+    if (r.status != Status::ok || r.folder.empty()) continue;
+    json_["device"] =
+        JsonDocument::load(work.folder / r.folder / "lights.json", ErrorKind::output).root().at("device");
+    return;
+  }
+}
+
 void ExhibitWork::take_run(const std::string& config) {
   const Work<Report>& work = work_.run(config);
   const Report& report = work.result;
@@ -196,8 +208,10 @@ void ExhibitWork::take_run(const std::string& config) {
       json_["problems"].push_back(
           fmt::format("{}: {}: {}", c.id, name(c.status), c.error ? c.error->message : ""));
   }
-  for (const MeasuredTable& table : tables_of(report, exhibit_))
-    json_["tables"].push_back(to_json(table, exhibit_));
+  const std::vector<MeasuredTable> tables = tables_of(report, exhibit_);
+  if (!exhibit_.table.empty() && tables.empty())
+    json_["problems"].push_back(config + ": no scene has a sound case of every column of the table");
+  for (const MeasuredTable& table : tables) json_["tables"].push_back(to_json(table, exhibit_));
   add(trials_of(report, exhibit_, claims_));
   if (!exhibit_.columns.empty())
     json_["reports"].push_back(
@@ -253,6 +267,7 @@ void ExhibitWork::take_lights(const std::string& config) {
   const uint32_t seed =
       exhibit_.largest_kernel ? seed_of_largest_kernel(work_.run(exhibit_.runs.at(0)).result) : 0;
   const auto& work = work_.lights(config, exhibit_.light_cases, seed);
+  note_machine_of_lights(work);
   for (const LightsResult& r : work.result) {
     if (!exhibit_.largest_kernel || r.status != Status::ok || r.seed != seed) continue;
     if (const std::string note = largest_kernel_note(work, r); !note.empty()) json_["notes"].push_back(note);
@@ -338,16 +353,26 @@ std::vector<Trial> trials_in(const Json& papers) {
 }
 
 Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& all) {
+  const auto exhibits_of = [](const Json& papers) { return papers.value("exhibits", Json::array()); };
+  const Json old = exhibits_of(earlier), anew = exhibits_of(fresh);
+  const auto named = [](const Json& exhibits, const std::string& name) {
+    return std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == name; });
+  };
+  std::vector<std::string> order;
+  for (const Exhibit& exhibit : all) order.push_back(exhibit.name);
+  for (const Json* exhibits : {&anew, &old}) {  // then those that this list does not know
+    for (const Json& e : *exhibits) {
+      const std::string name = e.at("name");
+      if (std::ranges::count(order, name) == 0) order.push_back(name);
+    }
+  }
   Json out = fresh;
   out["exhibits"] = Json::array();
-  for (const Exhibit& exhibit : all) {
-    for (const Json* source : {&fresh, &earlier}) {
-      const Json exhibits = source->value("exhibits", Json::array());
-      const auto at =
-          std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == exhibit.name; });
-      if (at == exhibits.end()) continue;
+  for (const std::string& name : order) {
+    if (const auto at = named(anew, name); at != anew.end()) {
       out["exhibits"].push_back(*at);
-      break;
+    } else if (const auto before = named(old, name); before != old.end()) {
+      out["exhibits"].push_back(*before);
     }
   }
   return out;
@@ -355,26 +380,40 @@ Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& 
 
 // --- flips ---
 
-std::vector<Flip> flips(const Json& before, const Json& after) {
-  using Key = std::array<std::string, 5>;
-  const auto by_key = [](const Json& papers) {
-    std::map<Key, Trial> out;
-    for (const Json& exhibit : papers.at("exhibits")) {
-      for (const Json& json : exhibit.at("trials")) {
-        const Trial t = trial_from_json(json);
-        out[{t.exhibit, exhibit.at("scale"), t.claim, t.place, t.metric}] = t;
-      }
+namespace {
+
+using TrialKey = std::array<std::string, 5>;
+
+std::map<TrialKey, Trial> by_key(const Json& papers) {
+  std::map<TrialKey, Trial> out;
+  for (const Json& exhibit : papers.at("exhibits")) {
+    for (const Json& json : exhibit.at("trials")) {
+      const Trial t = trial_from_json(json);
+      out[{t.exhibit, exhibit.at("scale"), t.claim, t.place, t.metric}] = t;
     }
-    return out;
-  };
-  const auto certain = [](Ruling r) { return r != Ruling::undecided && r != Ruling::not_run; };
-  const std::map<Key, Trial> old = by_key(before);
-  std::vector<Flip> out;
-  for (const auto& [key, t] : by_key(after)) {
-    const auto at = old.find(key);
-    if (at == old.end() || at->second.ruling == t.ruling) continue;
-    out.push_back({at->second, t, certain(at->second.ruling) && certain(t.ruling)});
   }
+  return out;
+}
+
+}  // namespace
+
+Flips flips(const Json& before, const Json& after) {
+  const auto certain = [](Ruling r) { return r != Ruling::undecided && r != Ruling::not_run; };
+  const std::map<TrialKey, Trial> old = by_key(before), now = by_key(after);
+  Flips out;
+  for (const auto& [key, t] : now) {
+    const auto at = old.find(key);
+    if (at == old.end()) continue;
+    ++out.compared;
+    if (at->second.ruling != t.ruling)
+      out.changed.push_back({at->second, t, certain(at->second.ruling) && certain(t.ruling)});
+  }
+  // Of what was asked for anew at this scale.
+  const auto tried = [&](const TrialKey& key) {
+    return std::ranges::any_of(
+        now, [&](const auto& item) { return item.first[0] == key[0] && item.first[1] == key[1]; });
+  };
+  for (const auto& [key, t] : old) out.vanished += !now.contains(key) && tried(key);
   return out;
 }
 
@@ -384,9 +423,10 @@ std::string flip_text(const Flip& flip) {
     if (!t.ci95) return fmt::format("{:.3g}", *t.ratio);
     return fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi);
   };
-  const std::string what = flip.before.ruling == Ruling::holds  ? "no longer holds"
-                           : flip.after.ruling == Ruling::holds ? "now holds"
-                                                                : std::string(name(flip.after.ruling));
+  const std::string what = !flip.lost                            ? "can be told otherwise"
+                           : flip.before.ruling == Ruling::holds ? "no longer holds"
+                           : flip.after.ruling == Ruling::holds  ? "now holds"
+                                                                 : std::string(name(flip.after.ruling));
   return fmt::format("{}: {}: {} ({}, {}, {}; was {}: {}, is {}: {})", flip.after.source, what,
                      flip.after.text, flip.after.exhibit, flip.after.place, flip.after.metric,
                      name(flip.before.ruling), number(flip.before), name(flip.after.ruling),

@@ -29,7 +29,8 @@ Json reproduce_exhibit(const Exhibit& exhibit, const std::vector<PaperClaim>& cl
 // The trials of all exhibits of a papers.json.
 std::vector<Trial> trials_in(const Json& papers);
 
-// Exhibits of `fresh` in place of those of the same name in `earlier`, in the order of `all`.
+// Exhibits of `fresh` in place of those of the same name in `earlier`, in the order of `all`; those that it
+// does not name come last.
 Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& all);
 
 // --- the ledger, held against an earlier one ---
@@ -40,9 +41,14 @@ struct Flip {
       false;  // what held no longer does, or what did not hold does: a kernel has changed what is true
 };
 
-// Trials that both have at one scale and whose rulings differ. `lost`: both rulings are certain, that is
-// neither undecided nor not run.
-std::vector<Flip> flips(const Json& before, const Json& after);
+struct Flips {
+  std::vector<Flip> changed;
+  size_t compared = 0;  // trials that both have at one scale
+  size_t vanished = 0;  // of `before`, that an exhibit of `after` of the same scale has no more
+};
+
+// Trials whose rulings differ. `lost`: both rulings are certain, that is neither undecided nor not run.
+Flips flips(const Json& before, const Json& after);
 
 // "[MFIS16 §5] no longer holds: ... (mfis16-fig5, conference, rmse; 0.98 [0.97, 0.99] was, 1.2 [1.1, 1.3]
 // is)"

@@ -48,7 +48,8 @@ TEST(Trial, EveryRulingHasAName) {
 
 TEST(Flips, TellWhatNoLongerHolds) {
   const auto found = flips(papers({made("x", Ruling::holds), made("y", Ruling::holds)}),
-                           papers({made("x", Ruling::does_not_hold, 2), made("y", Ruling::holds)}));
+                           papers({made("x", Ruling::does_not_hold, 2), made("y", Ruling::holds)}))
+                         .changed;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].lost);
   const std::string text = flip_text(found[0]);
@@ -58,22 +59,28 @@ TEST(Flips, TellWhatNoLongerHolds) {
 }
 
 TEST(Flips, InPartIsNoLongerWhatHeld) {
-  EXPECT_TRUE(flips(papers({made("x", Ruling::holds)}), papers({made("x", Ruling::in_part)}))[0].lost);
+  EXPECT_TRUE(
+      flips(papers({made("x", Ruling::holds)}), papers({made("x", Ruling::in_part)})).changed[0].lost);
 }
 
 TEST(Flips, WhatNoiseLeavesOpenIsAChangeAndNoFlip) {
   const auto found = flips(papers({made("x", Ruling::holds), made("y", Ruling::undecided)}),
-                           papers({made("x", Ruling::undecided), made("y", Ruling::holds)}));
+                           papers({made("x", Ruling::undecided), made("y", Ruling::holds)}))
+                         .changed;
   ASSERT_EQ(found.size(), 2u);
   EXPECT_FALSE(found[0].lost);
   EXPECT_FALSE(found[1].lost);
+  EXPECT_EQ(flip_text(found[0]).find("no longer holds"), std::string::npos);
 }
 
 TEST(Flips, OnlyTrialsOfOneScaleAreCompared) {
-  EXPECT_TRUE(
+  EXPECT_EQ(
       flips(papers({made("x", Ruling::holds)}, "quick"), papers({made("x", Ruling::does_not_hold)}, "paper"))
-          .empty());
-  EXPECT_TRUE(flips(papers({made("x", Ruling::holds)}), papers({made("z", Ruling::does_not_hold)})).empty());
+          .compared,
+      0u);
+  const Flips other = flips(papers({made("x", Ruling::holds)}), papers({made("z", Ruling::does_not_hold)}));
+  EXPECT_EQ(other.compared, 0u);
+  EXPECT_EQ(other.vanished, 1u);
 }
 
 TEST(Trial, OfAFigureKeepsWhatItFound) {

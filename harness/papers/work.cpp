@@ -42,12 +42,15 @@ std::optional<Json> made_before(const fs::path& folder, const Json& wanted, cons
   return std::nullopt;
 }
 
-// A whole report, whatever made it.
-std::optional<Report> complete_at(const fs::path& folder) {
+// A whole report of this experiment at this scale, whatever programme and device made it.
+std::optional<Report> complete_at(const fs::path& folder, const std::string& name, const std::string& scale) {
   std::error_code ec;
   if (!fs::exists(folder / "report.json", ec)) return std::nullopt;
   Report report = read_report_at(folder);
-  return report.complete ? std::optional(std::move(report)) : std::nullopt;
+  const bool wanted = report.config.value("name", "") == name && report.config.value("scale", "") == scale;
+  if (!wanted)
+    log_warning("{}: is of another config or scale; {} is measured", (folder / "report.json").string(), name);
+  return wanted && report.complete ? std::optional(std::move(report)) : std::nullopt;
 }
 
 void keep(const fs::path& folder, const Json& id, const Json& result) {
@@ -85,8 +88,9 @@ Json measure_code_sizes(const std::string& device) {
 const Work<Report>& PapersWork::run(const std::string& config) {
   const auto known = runs_.find(config);
   if (known != runs_.end()) return known->second;
-  const fs::path where = folder(config);
-  if (auto report = options_.as_is ? complete_at(where) : std::nullopt)
+  const fs::path where = folder(config, "");
+  const std::string name = load_config(config_path(config), Json::object(), options_.scale).name;
+  if (auto report = options_.as_is ? complete_at(where, name, options_.scale) : std::nullopt)
     return runs_.emplace(config, Work<Report>{std::move(*report), where}).first->second;
   RunOptions options{.config = config_path(config),
                      .out = where,
@@ -105,7 +109,7 @@ const Work<std::vector<LightsResult>>& PapersWork::lights(const std::string& con
   const std::string key = fmt::format("{}-lights {} {}", config, seed, fmt::join(cases, " "));
   const auto known = lights_.find(key);
   if (known != lights_.end()) return known->second;
-  const fs::path where = folder(config + "-lights");
+  const fs::path where = folder(config, "-lights");
   const Json id = identity(
       options_, {load_config(config_path(config), Json::object(), options_.scale).resolved, cases, seed});
   std::vector<LightsResult> results;
@@ -131,7 +135,7 @@ const Work<std::vector<LightsResult>>& PapersWork::lights(const std::string& con
 const Work<DrawnFigure>& PapersWork::figure(const std::string& config, uint32_t width, uint32_t height) {
   const auto known = figures_.find(config);
   if (known != figures_.end()) return known->second;
-  const fs::path where = folder(config);
+  const fs::path where = folder(config, "");
   const Json figure = load_figure_config(config_path(config), width, height);
   const Json id = identity(options_, figure);
   DrawnFigure drawn;
@@ -150,7 +154,7 @@ const Work<DrawnFigure>& PapersWork::figure(const std::string& config, uint32_t 
 
 const Json& PapersWork::code_sizes() {
   if (code_sizes_) return *code_sizes_;
-  const fs::path where = folder("code-size");
+  const fs::path where = folder("code-size", "");
   const Json id = identity(options_, "code-size");
   code_sizes_ = made_before(where, id, options_);
   if (!code_sizes_) {

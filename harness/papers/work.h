@@ -51,8 +51,8 @@ class PapersWork {
 
  private:
   // A config may be a path.
-  std::filesystem::path folder(const std::string& config) const {
-    return options_.out / std::filesystem::path(config).stem();
+  std::filesystem::path folder(const std::string& config, const std::string& of) const {
+    return options_.out / (std::filesystem::path(config).stem().string() + of);
   }
   WorkOptions options_;
   std::map<std::string, Work<Report>> runs_;

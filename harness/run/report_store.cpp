@@ -78,12 +78,17 @@ std::optional<Report> ReportStore::begun() const {
 }
 
 // What is saved of the same run; any other report is to be moved aside.
-std::optional<Report> ReportStore::saved(const Report& fresh, bool anew) {
+std::optional<Report> ReportStore::saved(const Report& fresh, bool anew, bool again) {
   std::error_code ec;
   if (!fs::exists(path_, ec)) return std::nullopt;
   try {
     Report report = read_report(path_);
     if (!anew && !report.complete && same_run(report, fresh)) return report;
+    if (!anew && again && same_run(report, fresh)) {
+      std::erase_if(report.cases, [](const CaseResult& c) { return c.status != Status::ok; });
+      report.complete = false;
+      return report;
+    }
     aside_ = folder_ / (report.complete ? "report.previous.json" : "report.incomplete.json");
   } catch (const Error& e) {
     log_warning("{}; it is kept as report.damaged.json", e.what());
@@ -97,19 +102,18 @@ std::optional<Report> ReportStore::finished(const Report& fresh) const {
   if (!fs::exists(path_, ec)) return std::nullopt;
   try {
     Report report = read_report(path_);
-    const auto skipped = [](const CaseResult& c) { return c.status == Status::skipped; };
-    if (report.complete && same_run(report, fresh) && std::ranges::none_of(report.cases, skipped))
-      return report;
+    const auto ok = [](const CaseResult& c) { return c.status == Status::ok; };
+    if (report.complete && same_run(report, fresh) && std::ranges::all_of(report.cases, ok)) return report;
   } catch (const Error&) {  // open() tells of what is damaged
   }
   return std::nullopt;
 }
 
-Report ReportStore::open(const Report& fresh, bool anew) {
+Report ReportStore::open(const Report& fresh, bool anew, bool again) {
   std::optional<Report> earlier = begun();
   if (anew || !earlier || !same_run(*earlier, fresh)) earlier.reset();
   goes_on_ = earlier.has_value();
-  if (std::optional<Report> report = saved(fresh, anew)) {
+  if (std::optional<Report> report = saved(fresh, anew, again)) {
     // The journal of a run that has saved a scene is of that run.
     goes_on_ = earlier && earlier->created == report->created;
     earlier = std::move(report);

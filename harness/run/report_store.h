@@ -24,8 +24,9 @@ class ReportStore {
 
   // What to go on with: the report of an interrupted run of the same experiment, program and device, saved
   // already or only begun; else `fresh`, and always so with `anew`.
-  Report open(const Report& fresh, bool anew);
-  // A complete report of the same experiment, program and device, no scene of which was skipped.
+  // `again`: a complete report of the same run is gone on with, too, without its failed and skipped cases.
+  Report open(const Report& fresh, bool anew, bool again = false);
+  // A complete report of the same experiment, program and device, all of whose cases are ok.
   std::optional<Report> finished(const Report& fresh) const;
   // In a child process: closes its copy of the lock, which is the parent's alone. Without it a child that
   // dies a moment after the parent would keep the next run out.
@@ -44,7 +45,7 @@ class ReportStore {
 
  private:
   std::optional<Report> begun() const;
-  std::optional<Report> saved(const Report& fresh, bool anew);
+  std::optional<Report> saved(const Report& fresh, bool anew, bool again);
   void keep_journal() const;
   std::filesystem::path folder_, path_;
   std::optional<std::filesystem::path> aside_;  // where the earlier report goes at the next save

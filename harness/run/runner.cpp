@@ -209,7 +209,7 @@ RunOutcome run_config(const RunOptions& options) {
       return outcome;
     }
   }
-  Report& report = outcome.report = store.open(fresh, options.force);
+  Report& report = outcome.report = store.open(fresh, options.force, options.keep_complete);
   const std::vector<Json> noted = take_notes(store, &report);
   if (!report.cases.empty() || !noted.empty())
     log_info("going on with the interrupted run in {}", store.path().string());

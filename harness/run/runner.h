@@ -19,8 +19,10 @@ struct RunOptions {
   std::string scale;              // of the config's `scales`; empty: none
   std::string device;             // as in select_device()
   bool force = false;             // measure again what an interrupted run had finished
-  bool keep_complete = false;     // a complete report of the same experiment, program and device stands
-  bool validation = false;        // with the validation layers; a message fails the run
+  // A complete report of the same experiment, program and device stands; what failed there, or was skipped,
+  // is tried again.
+  bool keep_complete = false;
+  bool validation = false;     // with the validation layers; a message fails the run
   bool check_passes = false;   // every pass by itself, its outputs looked at: FrameParameters::check_passes
   uint32_t price_effects = 0;  // replaces the config's; 0: the config's
   double time_limit_s = 0;     // replaces the config's; 0: the config's
