@@ -79,6 +79,19 @@ TEST_F(Reproduce, WhatIsFinishedStands) {
   EXPECT_NE(make(anew)["tables"], first["tables"]);  // times of other frames
 }
 
+// A scene that is not on this machine is tried again, and costs the others nothing.
+TEST_F(Reproduce, WhatIsFinishedStandsBesideWhatIsNotThere) {
+  Json config = JsonDocument::load(folder_ / "tiny.json", ErrorKind::config).root();
+  config["scenes"] = {"cornell", "conference"};
+  write_text(folder_ / "tiny.json", config.dump());
+  WorkOptions o = options();
+  o.assets = folder_;
+  const Json first = make(o), second = make(o);
+  EXPECT_EQ(first["problems"].size(), 3u) << first["problems"].dump();  // its three cases
+  EXPECT_EQ(first["measured"][0]["created"], second["measured"][0]["created"]);
+  EXPECT_EQ(first["tables"], second["tables"]);
+}
+
 TEST_F(Reproduce, AsItIsTakesWhatAnotherProgrammeMade) {
   const Json first = make(options());
   const fs::path file = folder_ / "out" / "tiny" / "report.json";
