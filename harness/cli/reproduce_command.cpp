@@ -117,7 +117,7 @@ void print_trials(const Json& exhibit) {
   fmt::print("{} {} ({:.0f} s)\n", exhibit.at("name").get<std::string>(),
              exhibit.at("source").get<std::string>(), exhibit.at("wall_s").get<double>());
   for (const Json& json : exhibit.at("trials")) {
-    const Trial t = trial_from_json(json);
+    const ClaimTrial t = trial_from_json(json);
     const std::string ratio = t.ratio ? fmt::format("  {:.3g}", *t.ratio) : "";
     fmt::print("  {:<13}  {} {} {}{}\n", name(t.ruling), t.claim, printable(t.place), t.metric, ratio);
   }

@@ -41,14 +41,14 @@ std::string interval_text(const Json& row) {
 // --- the ledger ---
 
 struct Entry {
-  Trial first;
-  std::vector<Trial> trials;
+  ClaimTrial first;
+  std::vector<ClaimTrial> trials;
 };
 
 // By claim, in the order in which exhibits try them.
 std::vector<Entry> entries_of(const Json& papers) {
   std::vector<Entry> out;
-  for (const Trial& t : trials_in(papers)) {
+  for (const ClaimTrial& t : trials_in(papers)) {
     auto at = std::ranges::find_if(out, [&](const Entry& e) { return e.first.claim == t.claim; });
     if (at == out.end()) at = out.insert(out.end(), {t, {}});
     at->trials.push_back(t);
@@ -56,18 +56,18 @@ std::vector<Entry> entries_of(const Json& papers) {
   return out;
 }
 
-std::string counts(const std::vector<Trial>& trials) {
+std::string counts(const std::vector<ClaimTrial>& trials) {
   std::vector<std::string> parts;
   for (const Ruling ruling : kOrder) {
-    const auto count = std::ranges::count(trials, ruling, &Trial::ruling);
+    const auto count = std::ranges::count(trials, ruling, &ClaimTrial::ruling);
     if (count > 0) parts.push_back(fmt::format("{} {}", name(ruling), count));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 // One word for a claim: what all certain trials say, else "in part"; "undecided" where none is certain.
-Ruling whole(const std::vector<Trial>& trials) {
-  const auto has = [&](Ruling r) { return std::ranges::count(trials, r, &Trial::ruling) > 0; };
+Ruling whole(const std::vector<ClaimTrial>& trials) {
+  const auto has = [&](Ruling r) { return std::ranges::count(trials, r, &ClaimTrial::ruling) > 0; };
   if (has(Ruling::in_part) || (has(Ruling::holds) && has(Ruling::does_not_hold))) return Ruling::in_part;
   if (has(Ruling::holds)) return Ruling::holds;
   if (has(Ruling::does_not_hold)) return Ruling::does_not_hold;
@@ -76,7 +76,7 @@ Ruling whole(const std::vector<Trial>& trials) {
 
 std::string places(const Entry& entry) {
   std::vector<std::string> names;
-  for (const Trial& t : entry.trials) {
+  for (const ClaimTrial& t : entry.trials) {
     const std::string link = fmt::format("[{0}](#{0})", cell(t.exhibit));
     if (std::ranges::count(names, link) == 0) names.push_back(link);
   }
@@ -163,7 +163,7 @@ std::string trials_text(const Json& exhibit) {
   std::string out =
       "| claim | place | measure | verdict | ratio [95 %] | |\n| --- | --- | --- | --- | ---: | --- |\n";
   for (const Json& json : exhibit.at("trials")) {
-    const Trial t = trial_from_json(json);
+    const ClaimTrial t = trial_from_json(json);
     const std::string ratio = !t.ratio ? ""
                               : t.ci95
                                   ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi)

@@ -147,12 +147,13 @@ class ExhibitWork {
  private:
   template <class Action>
   void attempt(const std::string& what, const Action& action);
-  void add(const std::vector<Trial>& trials);
+  void add(const std::vector<ClaimTrial>& trials);
   void take_run(const std::string& config);
   void take_lights(const std::string& config);
   void take_figure();
   void take_code_size();
   void add_sheet(const fs::path& sheets);
+  void note_failed(const std::vector<std::pair<std::string, std::string>>& failed);
   void note_machine(const DeviceReport& device);
   void note_machine_of_lights(const Work<std::vector<LightsResult>>& work);
 
@@ -175,13 +176,26 @@ void ExhibitWork::attempt(const std::string& what, const Action& action) {
   guarded(action, failed);
 }
 
-void ExhibitWork::add(const std::vector<Trial>& trials) {
-  for (const Trial& t : trials) json_["trials"].push_back(vsglbench::to_json(t));
+void ExhibitWork::add(const std::vector<ClaimTrial>& trials) {
+  for (const ClaimTrial& t : trials) json_["trials"].push_back(vsglbench::to_json(t));
 }
 
 void ExhibitWork::note_machine(const DeviceReport& d) {
   json_["device"] = {
       {"name", d.name}, {"type", d.type}, {"driver", d.driver}, {"driver_version", d.driver_version}};
+}
+
+// Cases and why; those that failed alike are told together.
+void ExhibitWork::note_failed(const std::vector<std::pair<std::string, std::string>>& failed) {
+  std::vector<std::string> told;
+  for (const auto& [id, why] : failed) {
+    if (std::ranges::count(told, why) > 0) continue;
+    told.push_back(why);
+    const auto alike =
+        std::ranges::count_if(failed, [&, &reason = why](const auto& f) { return f.second == reason; });
+    json_["problems"].push_back(alike > 1 ? fmt::format("{} and {} more: {}", id, alike - 1, why)
+                                          : id + ": " + why);
+  }
 }
 
 void ExhibitWork::note_machine_of_lights(const Work<std::vector<LightsResult>>& work) {
@@ -203,11 +217,11 @@ void ExhibitWork::take_run(const std::string& config) {
                                {"commit", report.git.commit},
                                {"dirty", report.git.dirty},
                                {"wall_s", report.wall.total_s}});
+  std::vector<std::pair<std::string, std::string>> failed;
   for (const CaseResult& c : report.cases) {
-    if (c.status != Status::ok)
-      json_["problems"].push_back(
-          fmt::format("{}: {}: {}", c.id, name(c.status), c.error ? c.error->message : ""));
+    if (c.status != Status::ok) failed.emplace_back(c.id, c.error ? c.error->message : "failed");
   }
+  note_failed(failed);
   const std::vector<MeasuredTable> tables = tables_of(report, exhibit_);
   if (!exhibit_.table.empty() && tables.empty())
     json_["problems"].push_back(config + ": no scene has a sound case of every column of the table");
@@ -272,10 +286,11 @@ void ExhibitWork::take_lights(const std::string& config) {
     if (!exhibit_.largest_kernel || r.status != Status::ok || r.seed != seed) continue;
     if (const std::string note = largest_kernel_note(work, r); !note.empty()) json_["notes"].push_back(note);
   }
+  std::vector<std::pair<std::string, std::string>> failed;
   for (const LightsResult& r : work.result) {
-    if (r.status != Status::ok)
-      json_["problems"].push_back(fmt::format("{}: {}: {}", r.id, name(r.status), r.error));
+    if (r.status != Status::ok) failed.emplace_back(r.id, r.error);
   }
+  note_failed(failed);
   if (exhibit_.edges) add(trials_of(work.result, exhibit_));
   for (const SheetPart& part : exhibit_.sheet) {
     if (part.run == config + "-lights") rows_.push_back(files_of(work.folder, part));
@@ -344,8 +359,8 @@ Json reproduce_exhibit(const Exhibit& exhibit, const std::vector<PaperClaim>& cl
   return ExhibitWork(exhibit, claims, work, scale).measure(sheets);
 }
 
-std::vector<Trial> trials_in(const Json& papers) {
-  std::vector<Trial> out;
+std::vector<ClaimTrial> trials_in(const Json& papers) {
+  std::vector<ClaimTrial> out;
   for (const Json& exhibit : papers.at("exhibits")) {
     for (const Json& trial : exhibit.at("trials")) out.push_back(trial_from_json(trial));
   }
@@ -384,11 +399,11 @@ namespace {
 
 using TrialKey = std::array<std::string, 5>;
 
-std::map<TrialKey, Trial> by_key(const Json& papers) {
-  std::map<TrialKey, Trial> out;
+std::map<TrialKey, ClaimTrial> by_key(const Json& papers) {
+  std::map<TrialKey, ClaimTrial> out;
   for (const Json& exhibit : papers.at("exhibits")) {
     for (const Json& json : exhibit.at("trials")) {
-      const Trial t = trial_from_json(json);
+      const ClaimTrial t = trial_from_json(json);
       out[{t.exhibit, exhibit.at("scale"), t.claim, t.place, t.metric}] = t;
     }
   }
@@ -399,7 +414,7 @@ std::map<TrialKey, Trial> by_key(const Json& papers) {
 
 Flips flips(const Json& before, const Json& after) {
   const auto certain = [](Ruling r) { return r != Ruling::undecided && r != Ruling::not_run; };
-  const std::map<TrialKey, Trial> old = by_key(before), now = by_key(after);
+  const std::map<TrialKey, ClaimTrial> old = by_key(before), now = by_key(after);
   Flips out;
   for (const auto& [key, t] : now) {
     const auto at = old.find(key);
@@ -418,7 +433,7 @@ Flips flips(const Json& before, const Json& after) {
 }
 
 std::string flip_text(const Flip& flip) {
-  const auto number = [](const Trial& t) {
+  const auto number = [](const ClaimTrial& t) {
     if (!t.ratio) return t.figures;
     if (!t.ci95) return fmt::format("{:.3g}", *t.ratio);
     return fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi);

@@ -27,7 +27,7 @@ Json reproduce_exhibit(const Exhibit& exhibit, const std::vector<PaperClaim>& cl
                        const std::string& scale, const std::filesystem::path& sheets);
 
 // The trials of all exhibits of a papers.json.
-std::vector<Trial> trials_in(const Json& papers);
+std::vector<ClaimTrial> trials_in(const Json& papers);
 
 // Exhibits of `fresh` in place of those of the same name in `earlier`, in the order of `all`; those that it
 // does not name come last.
@@ -36,7 +36,7 @@ Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& 
 // --- the ledger, held against an earlier one ---
 
 struct Flip {
-  Trial before, after;
+  ClaimTrial before, after;
   bool lost =
       false;  // what held no longer does, or what did not hold does: a kernel has changed what is true
 };

@@ -87,7 +87,8 @@ TEST_F(Reproduce, WhatIsFinishedStandsBesideWhatIsNotThere) {
   WorkOptions o = options();
   o.assets = folder_;
   const Json first = make(o), second = make(o);
-  EXPECT_EQ(first["problems"].size(), 3u) << first["problems"].dump();  // its three cases
+  ASSERT_EQ(first["problems"].size(), 1u) << first["problems"].dump();  // its three cases alike
+  EXPECT_NE(first["problems"][0].get<std::string>().find(" and 2 more: "), std::string::npos);
   EXPECT_EQ(first["measured"][0]["created"], second["measured"][0]["created"]);
   EXPECT_EQ(first["tables"], second["tables"]);
 }

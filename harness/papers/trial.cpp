@@ -29,16 +29,16 @@ std::string pairs_text(const ClaimRow& row) {
                      row.holding, row.contrary);
 }
 
-Trial trial_of(const ClaimRow& row, const PaperClaim& claim, const Exhibit& exhibit) {
-  Trial t{.exhibit = exhibit.name,
-          .claim = claim.name,
-          .text = claim.text,
-          .source = claim.source,
-          .how = comparison_text(claim),
-          .place = row.scene,
-          .metric = row.metric,
-          .ruling = row.ruling,
-          .figures = row.pairs == 0 ? row.why : pairs_text(row)};
+ClaimTrial trial_of(const ClaimRow& row, const PaperClaim& claim, const Exhibit& exhibit) {
+  ClaimTrial t{.exhibit = exhibit.name,
+               .claim = claim.name,
+               .text = claim.text,
+               .source = claim.source,
+               .how = comparison_text(claim),
+               .place = row.scene,
+               .metric = row.metric,
+               .ruling = row.ruling,
+               .figures = row.pairs == 0 ? row.why : pairs_text(row)};
   if (row.pairs > 0) t.ratio = row.ratio;
   if (row.pairs > 0) t.ci95 = row.ci95;
   return t;
@@ -59,15 +59,15 @@ const Json& size_of(const Json& sizes, const std::string& method) {
 }
 
 // A count of both beside each other, as the table of the paper has them.
-Trial of_counts(const Exhibit& exhibit, const std::string& name, const std::string& text, double a, double b,
-                double factor, const std::string& how) {
-  Trial t{.exhibit = exhibit.name,
-          .claim = "code-size/" + name,
-          .text = text,
-          .source = "[MFIS16 §5, Tab. 3]",
-          .how = how,
-          .place = "source tree",
-          .metric = name};
+ClaimTrial of_counts(const Exhibit& exhibit, const std::string& name, const std::string& text, double a,
+                     double b, double factor, const std::string& how) {
+  ClaimTrial t{.exhibit = exhibit.name,
+               .claim = "code-size/" + name,
+               .text = text,
+               .source = "[MFIS16 §5, Tab. 3]",
+               .how = how,
+               .place = "source tree",
+               .metric = name};
   t.ratio = b > 0 ? std::optional(a / b) : std::nullopt;
   t.ruling = !t.ratio ? Ruling::undecided : *t.ratio <= factor ? Ruling::holds : Ruling::does_not_hold;
   t.figures = fmt::format("{:g} beside {:g}", a, b);
@@ -75,17 +75,18 @@ Trial of_counts(const Exhibit& exhibit, const std::string& name, const std::stri
 }
 
 // A ratio that must be above (sign 1) or below (-1) 1, by its interval.
-Trial of_edges(const LightsResult& r, const Exhibit& exhibit, const std::string& name,
-               const std::string& text, const std::optional<Ratio>& ratio, int sign) {
-  Trial t{.exhibit = exhibit.name,
-          .claim = "lights-on-edges/" + name,
-          .text = text,
-          .source = "[VSGL14 §3.2, Fig. 2]",
-          .how = fmt::format("medians of a case's lights whose footprints hold discontinuous geometry beside "
-                             "those of the others; the ratio must be {} 1",
-                             sign > 0 ? "above" : "below"),
-          .place = r.id,
-          .metric = name};
+ClaimTrial of_edges(const LightsResult& r, const Exhibit& exhibit, const std::string& name,
+                    const std::string& text, const std::optional<Ratio>& ratio, int sign) {
+  ClaimTrial t{
+      .exhibit = exhibit.name,
+      .claim = "lights-on-edges/" + name,
+      .text = text,
+      .source = "[VSGL14 §3.2, Fig. 2]",
+      .how = fmt::format("medians of a case's lights whose footprints hold discontinuous geometry beside "
+                         "those of the others; the ratio must be {} 1",
+                         sign > 0 ? "above" : "below"),
+      .place = r.id,
+      .metric = name};
   t.figures = fmt::format("{} lights on discontinuities, {} not", r.edges->on, r.edges->off);
   if (!ratio) return t;
   t.ratio = ratio->value;
@@ -106,9 +107,9 @@ std::optional<Ruling> ruling_named(const std::string& text) {
   return std::nullopt;
 }
 
-std::vector<Trial> trials_of(const Report& report, const Exhibit& exhibit,
-                             const std::vector<PaperClaim>& claims) {
-  std::vector<Trial> out;
+std::vector<ClaimTrial> trials_of(const Report& report, const Exhibit& exhibit,
+                                  const std::vector<PaperClaim>& claims) {
+  std::vector<ClaimTrial> out;
   for (const std::string& name : exhibit.claims) {
     const TriedClaim tried = try_claim(report, claim_named(claims, name, exhibit));
     for (const ClaimRow& row : tried.rows) out.push_back(trial_of(row, tried.claim, exhibit));
@@ -116,8 +117,8 @@ std::vector<Trial> trials_of(const Report& report, const Exhibit& exhibit,
   return out;
 }
 
-std::vector<Trial> trials_of(const DrawnFigure& figure, const Exhibit& exhibit) {
-  std::vector<Trial> out;
+std::vector<ClaimTrial> trials_of(const DrawnFigure& figure, const Exhibit& exhibit) {
+  std::vector<ClaimTrial> out;
   for (size_t i = 0; i < figure.claims.size(); ++i) {
     const Claim& c = figure.claims[i];
     out.push_back({.exhibit = exhibit.name,
@@ -133,8 +134,8 @@ std::vector<Trial> trials_of(const DrawnFigure& figure, const Exhibit& exhibit) 
   return out;
 }
 
-std::vector<Trial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit) {
-  std::vector<Trial> out;
+std::vector<ClaimTrial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit) {
+  std::vector<ClaimTrial> out;
   const auto lines = [](const Json& s) {
     return s.at("own_lines").get<double>() + s.at("shared_lines").get<double>();
   };
@@ -165,8 +166,8 @@ std::vector<Trial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit
   return out;
 }
 
-std::vector<Trial> trials_of(const std::vector<LightsResult>& lights, const Exhibit& exhibit) {
-  std::vector<Trial> out;
+std::vector<ClaimTrial> trials_of(const std::vector<LightsResult>& lights, const Exhibit& exhibit) {
+  std::vector<ClaimTrial> out;
   for (const LightsResult& r : lights) {
     if (!r.edges || r.seed != 0) continue;  // the seed that is drawn
     out.push_back(of_edges(r, exhibit, "larger", "Filtering makes larger VSGLs on discontinuous geometry",
@@ -177,7 +178,7 @@ std::vector<Trial> trials_of(const std::vector<LightsResult>& lights, const Exhi
   return out;
 }
 
-Json to_json(const Trial& t) {
+Json to_json(const ClaimTrial& t) {
   Json json = {{"exhibit", t.exhibit}, {"claim", t.claim},
                {"source", t.source},   {"text", t.text},
                {"how", t.how},         {"place", t.place},
@@ -188,15 +189,15 @@ Json to_json(const Trial& t) {
   return json;
 }
 
-Trial trial_from_json(const Json& json) {
-  Trial t{.exhibit = json.at("exhibit"),
-          .claim = json.at("claim"),
-          .text = json.value("text", ""),
-          .source = json.at("source"),
-          .how = json.value("how", ""),
-          .place = json.at("place"),
-          .metric = json.at("metric"),
-          .figures = json.value("figures", "")};
+ClaimTrial trial_from_json(const Json& json) {
+  ClaimTrial t{.exhibit = json.at("exhibit"),
+               .claim = json.at("claim"),
+               .text = json.value("text", ""),
+               .source = json.at("source"),
+               .how = json.value("how", ""),
+               .place = json.at("place"),
+               .metric = json.at("metric"),
+               .figures = json.value("figures", "")};
   const auto ruling = ruling_named(json.at("ruling"));
   if (!ruling) throw fail(ErrorKind::config, "no ruling is named {}", json.at("ruling").dump());
   t.ruling = *ruling;

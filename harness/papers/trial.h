@@ -13,7 +13,7 @@
 namespace vsglbench {
 
 // One row of the ledger. Exhibit, claim, place and metric together name it.
-struct Trial {
+struct ClaimTrial {
   std::string exhibit, claim;  // claim: a name of claims.json, "sgl22-1/2", "code-size/lines"
   std::string text, source;    // paraphrase; paper and place
   std::string how;             // "mfis beside fis K=1; the ratio must be below 1"
@@ -26,18 +26,18 @@ struct Trial {
 
 // Claims that cases of a report tell, for the names of the exhibit. A claim that has no case there gives one
 // row `not_run`.
-std::vector<Trial> trials_of(const Report& report, const Exhibit& exhibit,
-                             const std::vector<PaperClaim>& claims);
+std::vector<ClaimTrial> trials_of(const Report& report, const Exhibit& exhibit,
+                                  const std::vector<PaperClaim>& claims);
 // Those that a figure checks by itself.
-std::vector<Trial> trials_of(const DrawnFigure& figure, const Exhibit& exhibit);
+std::vector<ClaimTrial> trials_of(const DrawnFigure& figure, const Exhibit& exhibit);
 // [MFIS16 §5, Tab. 3] of code size: what `code-size --json` prints.
-std::vector<Trial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit);
+std::vector<ClaimTrial> trials_of_code_size(const Json& sizes, const Exhibit& exhibit);
 // [VSGL14 §3.2, Fig. 2] of lights on discontinuous geometry.
-std::vector<Trial> trials_of(const std::vector<LightsResult>& lights, const Exhibit& exhibit);
+std::vector<ClaimTrial> trials_of(const std::vector<LightsResult>& lights, const Exhibit& exhibit);
 
-Json to_json(const Trial& trial);
+Json to_json(const ClaimTrial& trial);
 // Throws Json::exception for what is no trial.
-Trial trial_from_json(const Json& json);
+ClaimTrial trial_from_json(const Json& json);
 
 // A ruling by its name; nothing for another text.
 std::optional<Ruling> ruling_named(const std::string& text);

@@ -10,28 +10,28 @@ using namespace vsglbench;
 
 namespace {
 
-Trial made(const std::string& claim, Ruling ruling, double ratio = 0.5) {
-  Trial t{.exhibit = "fig",
-          .claim = claim,
-          .text = "A cuts B",
-          .source = "[P §5]",
-          .how = "a beside b",
-          .place = "box",
-          .metric = "rmse",
-          .ruling = ruling};
+ClaimTrial made(const std::string& claim, Ruling ruling, double ratio = 0.5) {
+  ClaimTrial t{.exhibit = "fig",
+               .claim = claim,
+               .text = "A cuts B",
+               .source = "[P §5]",
+               .how = "a beside b",
+               .place = "box",
+               .metric = "rmse",
+               .ruling = ruling};
   t.ratio = ratio;
   t.ci95 = Interval{0.9 * ratio, 1.1 * ratio};
   return t;
 }
 
-Json papers(const std::vector<Trial>& trials, const std::string& scale = "quick") {
+Json papers(const std::vector<ClaimTrial>& trials, const std::string& scale = "quick") {
   Json exhibit = {{"name", "fig"}, {"scale", scale}, {"trials", Json::array()}};
-  for (const Trial& t : trials) exhibit["trials"].push_back(to_json(t));
+  for (const ClaimTrial& t : trials) exhibit["trials"].push_back(to_json(t));
   return {{"exhibits", Json::array({exhibit})}};
 }
 
-TEST(Trial, SurvivesJson) {
-  const Trial t = made("x", Ruling::does_not_hold, 1.5), back = trial_from_json(to_json(t));
+TEST(ClaimTrial, SurvivesJson) {
+  const ClaimTrial t = made("x", Ruling::does_not_hold, 1.5), back = trial_from_json(to_json(t));
   EXPECT_EQ(to_json(back), to_json(t));
   EXPECT_EQ(back.ruling, Ruling::does_not_hold);
   EXPECT_EQ(back.ci95->hi, 1.1 * 1.5);
@@ -40,7 +40,7 @@ TEST(Trial, SurvivesJson) {
   EXPECT_THROW(trial_from_json(wrong), Error);
 }
 
-TEST(Trial, EveryRulingHasAName) {
+TEST(ClaimTrial, EveryRulingHasAName) {
   for (const Ruling r :
        {Ruling::holds, Ruling::does_not_hold, Ruling::in_part, Ruling::undecided, Ruling::not_run})
     EXPECT_EQ(ruling_named(std::string(name(r))), r);
@@ -83,7 +83,7 @@ TEST(Flips, OnlyTrialsOfOneScaleAreCompared) {
   EXPECT_EQ(other.vanished, 1u);
 }
 
-TEST(Trial, OfAFigureKeepsWhatItFound) {
+TEST(ClaimTrial, OfAFigureKeepsWhatItFound) {
   DrawnFigure figure;
   figure.claims = {{"first", "[P 1]", Finding::holds, "1 < 2"},
                    {"second", "[P 2]", Finding::does_not_hold, "3 > 2"},
@@ -107,18 +107,19 @@ Json size(const char* method, int kernels, int dispatches, int lines) {
           {"shared_lines", 0}};
 }
 
-TEST(Trial, OfCodeSizeComparesCounts) {
+TEST(ClaimTrial, OfCodeSizeComparesCounts) {
   Exhibit e;
   e.name = "tab3";
   const auto ruling = [&](const Json& sizes, const std::string& claim) {
-    for (const Trial& t : trials_of_code_size(sizes, e)) {
+    for (const ClaimTrial& t : trials_of_code_size(sizes, e)) {
       if (t.claim == "code-size/" + claim) return t.ruling;
     }
     throw std::out_of_range(claim);
   };
   const Json as_published = {size("fis", 2, 2, 222), size("mfis", 2, 2, 232), size("kmeans2d", 9, 39, 1143),
                              size("kmeans3d", 9, 39, 1172)};
-  for (const Trial& t : trials_of_code_size(as_published, e)) EXPECT_EQ(t.ruling, Ruling::holds) << t.claim;
+  for (const ClaimTrial& t : trials_of_code_size(as_published, e))
+    EXPECT_EQ(t.ruling, Ruling::holds) << t.claim;
   const Json otherwise = {size("fis", 2, 2, 222), size("mfis", 3, 9, 300), size("kmeans2d", 3, 9, 900),
                           size("kmeans3d", 9, 39, 1300)};
   EXPECT_EQ(ruling(otherwise, "mfis-kernels"), Ruling::does_not_hold);
