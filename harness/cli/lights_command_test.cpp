@@ -68,7 +68,7 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
 // A row of each seed is that of a run with it alone; pictures and list are of the first.
 TEST_F(LightsCommand, SeveralSeedsAreRowsOfCoverage) {
   config_["methods"] = {{{"method", "mfis"}}, {{"method", "vpl"}}};
-  const auto rows = [&](std::vector<std::string> more) {
+  const auto rows = [&](const std::vector<std::string>& more) {
     const Finished f = lights(more);
     EXPECT_EQ(f.code, 0) << f.err;
     return parse_csv(read_text(out_ / "coverage.csv"));

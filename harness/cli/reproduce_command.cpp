@@ -181,7 +181,7 @@ void reproduce(ReproduceCommand command, CommandResult* result) {
     throw fail(ErrorKind::usage, "--against is of --check; give both");
   if (command.out.empty()) command.out = fs::path("reports") / "out" / "papers" / command.scale;
   ensure_writable_directory(command.out);
-  Gnuplot();  // where it is missing, that is said before the work
+  [[maybe_unused]] const Gnuplot present;  // where it is missing, that is said before the work
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   command.work.out = command.out;
