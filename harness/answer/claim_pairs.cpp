@@ -140,10 +140,19 @@ std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint
   return PairRatio{std::move(logs), *mean, a.of_pairs};
 }
 
-// Of counts: none on either side, in any seed.
-bool tells_nothing(const PairRatio& ratio, const std::string& metric) {
-  if (metric != "spikes" && metric != "kernel_over") return false;
-  return std::ranges::all_of(ratio.by_seed, [](const auto& item) { return item.second == 0; });
+// Of counts: none at all in any seed.
+bool has_none(const CaseResult& c, const std::string& metric) {
+  if (metric == "spikes")
+    return std::ranges::all_of(c.seeds, [](const SeedResult& s) { return s.spikes && *s.spikes == 0; });
+  if (metric == "kernel_over")
+    return std::ranges::all_of(c.seeds,
+                               [](const SeedResult& s) { return s.kernels && s.kernels->over == 0; });
+  return false;
+}
+
+// Nothing beside nothing is no ratio.
+bool tells_nothing(const ClaimCase& a, const ClaimCase& b, const std::string& metric) {
+  return has_none(*a.result, metric) && has_none(*b.result, metric);
 }
 
 // What is noise in a time may be in either direction.
@@ -353,7 +362,7 @@ std::vector<PairRatio> pairs_of(const PaperClaim& claim, const Sides& sides, con
     }
     for (const ClaimCase* b : others) {
       auto ratio = is_time(metric) ? ratio_of_times(a, *b, noise) : ratio_of_errors(a, b->logs);
-      if (ratio && !tells_nothing(*ratio, metric)) out.push_back(std::move(*ratio));
+      if (ratio && !tells_nothing(a, *b, metric)) out.push_back(std::move(*ratio));
     }
   }
   return out;

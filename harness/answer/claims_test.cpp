@@ -150,6 +150,24 @@ TEST(Claims, NoTooLargeKernelIsFewerThanSome) {
   EXPECT_NEAR(row.ratio, 0.5 / 4, 1e-9);
 }
 
+// Two sets with the same too large kernels are alike; two without any tell nothing.
+TEST(Claims, NothingBesideNothingIsNoRatio) {
+  MadeReport r(1, 0, 0.1);
+  r.add(made("a", 64, 10));
+  r.add(made("b", 64, 10));
+  const auto row_with = [&](double over) {
+    for (CaseResult& c : r.report.cases) {
+      c.generate.emplace().lights = 64;
+      for (SeedResult& s : c.seeds) s.kernels = KernelStats{.largest = 1, .over = over};
+    }
+    PaperClaim claim = claim_of({{"method", "a"}}, {{"method", "b"}});
+    claim.metrics = {"kernel_over"};
+    return only_row(r.report, claim);
+  };
+  EXPECT_EQ(row_with(0).ruling, Ruling::not_run);
+  EXPECT_EQ(row_with(0.125).ruling, Ruling::does_not_hold);
+}
+
 TEST(Claims, SaysWhatWasNotRun) {
   MadeReport r(1, 0, 0.1);
   r.add(made("a", 64, 10));

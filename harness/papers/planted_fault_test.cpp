@@ -79,7 +79,7 @@ TEST_F(PlantedFault, ThePdfAtTheCentreInPlaceOfItsMean) {
   expect_flip("mfis16-fig5",
               {"harness/method/shaders/equal_probability.glsl",
                "footprint_area(level) * filtered_pdf(c, level)", "footprint_area(level) * c.p"},
-              "fis-makes-too-bright-lights");
+              "kernels-hold-a-share");
 }
 
 TEST_F(PlantedFault, NoVarianceOfASingleTexel) {
