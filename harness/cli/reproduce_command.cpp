@@ -108,7 +108,7 @@ class Page {
 
   const ReproduceCommand& command_;
   const std::vector<Exhibit>& all_;
-  Json papers_ = {{"schema", kPapersSchema}, {"argv", command_.work.argv}, {"exhibits", Json::array()}};
+  Json papers_ = {{"schema", kPapersSchema}, {"exhibits", Json::array()}};
   std::optional<Json> committed_;
   fs::path folder_, held_against_;
 };
