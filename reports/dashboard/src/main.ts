@@ -1,0 +1,3 @@
+import { readDigest } from "./data";
+const digest = readDigest();
+document.getElementById("app")!.textContent = `${digest.reports.length} reports`;

@@ -1,0 +1,17 @@
+// A view is one tab of the page.
+import type { Digest, Report } from "./data";
+import type { State } from "./state";
+
+export interface Page {
+  digest: Digest;
+  report: Report; // the chosen one, state key r
+  state: State;
+}
+
+export interface View {
+  id: string; // of its tab, and state key v
+  title: string;
+  has(page: Page): boolean; // whether there is something to show
+  // Draws into an empty element; is called again, with an empty element, whenever the state has changed other than quietly.
+  draw(root: HTMLElement, page: Page): void;
+}
