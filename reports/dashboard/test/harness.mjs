@@ -1,19 +1,21 @@
 // Opens pages in headless Chromium and notes what they must not do. Pages lie in the folder of
 // VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it as NAME.json, else in reports/.
-import { existsSync, readFileSync } from "node:fs";
-import { join, dirname } from "node:path";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, isAbsolute, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { deflateSync, inflateSync } from "node:zlib";
 import { chromium } from "playwright-core";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const pages = process.env.VSGLBENCH_DASHBOARD_PAGES;
 if (!pages) throw new Error("VSGLBENCH_DASHBOARD_PAGES: not set; the folder of the pages under test");
 
-let browser;
+let browser, scratch, variants = 0;
 
 // -> a page with `errors` (of console and script) and `requests` (all that leave it); both must stay empty.
 export async function open(name, { hash = "", dark = false, width = 1280, height = 900 } = {}) {
-  const file = join(pages, `${name}.html`);
+  const file = isAbsolute(name) ? name : join(pages, `${name}.html`);
   if (!existsSync(file)) throw new Error(`${file}: not there`);
   browser ??= await chromium.launch({
     executablePath: process.env.VSGLBENCH_CHROMIUM ?? "/usr/bin/chromium",
@@ -38,7 +40,51 @@ export function report(name) {
   return JSON.parse(readFileSync(file, "utf8"));
 }
 
+export function has(name) {
+  return existsSync(join(pages, `${name}.html`));
+}
+
 export async function close() {
   await browser?.close();
   browser = undefined;
+  if (scratch) rmSync(scratch, { recursive: true, force: true });
+  scratch = undefined;
+}
+
+// A page like NAME with other data: `change` is given what the page holds. -> a name for `open`.
+export function variant(name, change) {
+  const html = readFileSync(join(pages, `${name}.html`), "utf8");
+  const [, before, data] = /(<script[^>]*id="data"[^>]*>)([^<]*)</.exec(html);
+  const digest = JSON.parse(inflateSync(Buffer.from(data, "base64")).toString());
+  change(digest);
+  scratch ??= mkdtempSync(join(tmpdir(), "dashboard-"));
+  const file = join(scratch, `${name}-${++variants}.html`);
+  writeFileSync(file, html.replace(before + data, () => before + deflateSync(JSON.stringify(digest)).toString("base64")));
+  return file;
+}
+
+// Numbers of a text as the page writes them: "1.02 (−0.5 to 3e−5)".
+export function numbers(text) {
+  return (text.match(/[+\-−]?\d+(\.\d+)?(e[\-−]?\d+)?/g) ?? []).map((n) => Number(n.replaceAll("−", "-")));
+}
+
+// Whether a figure of three digits is this number.
+export function isFigure(shown, exact) {
+  return Math.abs(shown - exact) <= 0.0051 * Math.abs(exact) + 1e-12;
+}
+
+// The rows of a table by its caption, as objects by the titles of its columns.
+export async function rowsOf(page, caption) {
+  return page.$$eval("section.table", (sections, wanted) => {
+    const section = sections.find((s) => s.querySelector("h3").textContent === wanted);
+    if (!section) return null;
+    const titles = [...section.querySelectorAll("thead button")].map((b) => b.textContent);
+    return [...section.querySelectorAll("tbody tr")].map((tr) => Object.fromEntries([...tr.children].map((cell, i) => [titles[i], cell.textContent])));
+  }, caption);
+}
+
+// The bytes of what a click saves.
+export async function downloaded(page, click) {
+  const [download] = await Promise.all([page.waitForEvent("download"), click()]);
+  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
 }
