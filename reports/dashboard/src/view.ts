@@ -8,9 +8,12 @@ export interface Page {
   state: State;
 }
 
+export type Filter = "group" | "metric" | "time" | "methods";
+
 export interface View {
   id: string; // of its tab, and state key v
   title: string;
+  filters?: Filter[]; // of the shared ones, those that it heeds; absent: all
   has(page: Page): boolean; // whether there is something to show
   // Draws into an empty element; is called again, with an empty element, whenever the state has changed other than quietly.
   draw(root: HTMLElement, page: Page): void;

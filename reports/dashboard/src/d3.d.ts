@@ -1,0 +1,2 @@
+// d3 comes with Plot, without types.
+declare module "d3";

@@ -1,0 +1,10 @@
+// All views, in the order of their tabs.
+import type { View } from "./view";
+import { budgetView } from "./views/budget";
+import { casesView } from "./views/cases";
+import { convergenceView } from "./views/convergence";
+import { frontView } from "./views/front";
+import { knobsView } from "./views/knobs";
+import { passesView } from "./views/passes";
+
+export const views: View[] = [frontView, passesView, budgetView, knobsView, convergenceView, casesView];

@@ -1,0 +1,44 @@
+// Opens pages in headless Chromium and notes what they must not do. Pages lie in the folder of
+// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it as NAME.json, else in reports/.
+import { existsSync, readFileSync } from "node:fs";
+import { join, dirname } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const pages = process.env.VSGLBENCH_DASHBOARD_PAGES;
+if (!pages) throw new Error("VSGLBENCH_DASHBOARD_PAGES: not set; the folder of the pages under test");
+
+let browser;
+
+// -> a page with `errors` (of console and script) and `requests` (all that leave it); both must stay empty.
+export async function open(name, { hash = "", dark = false, width = 1280, height = 900 } = {}) {
+  const file = join(pages, `${name}.html`);
+  if (!existsSync(file)) throw new Error(`${file}: not there`);
+  browser ??= await chromium.launch({
+    executablePath: process.env.VSGLBENCH_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", acceptDownloads: true });
+  const page = await context.newPage();
+  page.setDefaultTimeout(20000);
+  page.errors = [];
+  page.requests = [];
+  page.on("console", (m) => m.type() === "error" && page.errors.push(m.text()));
+  page.on("pageerror", (e) => page.errors.push(String(e)));
+  page.on("request", (r) => /^(file|data|blob):/.test(r.url()) || page.requests.push(r.url()));
+  await page.goto(pathToFileURL(file).href + (hash ? "#" + hash : ""));
+  await page.waitForSelector("#view > *");
+  return page;
+}
+
+export function report(name) {
+  const beside = pages && join(pages, `${name}.json`);
+  const file = existsSync(beside) ? beside : join(here, "../..", `${name}-lavapipe`, "report.json");
+  return JSON.parse(readFileSync(file, "utf8"));
+}
+
+export async function close() {
+  await browser?.close();
+  browser = undefined;
+}
