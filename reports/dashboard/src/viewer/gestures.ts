@@ -23,6 +23,7 @@ export function listen(stage: Stage, size: () => [number, number], listener: Lis
     const { left, top } = root.getBoundingClientRect();
     return [e.clientX - left, e.clientY - top];
   };
+  const isSpare = (e: Event) => stage.spare.contains(e.target as Node);
   const pixelAt = (at: [number, number]): [number, number] | null => {
     const pane = stage.paneAt(...at);
     if (!pane) return null;
@@ -67,7 +68,7 @@ export function listen(stage: Stage, size: () => [number, number], listener: Lis
   };
 
   root.addEventListener("pointerdown", (e) => {
-    if (e.button !== 0) return;
+    if (e.button !== 0 || isSpare(e)) return;
     const at = place(e);
     fingers.set(e.pointerId, at);
     root.setPointerCapture(e.pointerId);
@@ -119,6 +120,7 @@ export function listen(stage: Stage, size: () => [number, number], listener: Lis
   root.addEventListener(
     "wheel",
     (e) => {
+      if (isSpare(e)) return;
       e.preventDefault();
       const at = place(e);
       const lines = e.deltaMode === 1 ? 16 * e.deltaY : e.deltaY;

@@ -1,4 +1,5 @@
 // Lines and figures over the pictures: divider, chosen rectangle, the pixel under the pointer, values in the pixels.
+import { figure } from "../format";
 import { type Camera, type Divider, isSecond, type Layer, type Pane, toPixel, toScreen, valuesAt } from "./scene";
 import type { Rectangle } from "./statistics";
 
@@ -8,13 +9,6 @@ export interface Marks {
   divider: Divider | null;
   rectangle: Rectangle | null;
   pixel: [number, number] | null;
-}
-
-export function shortNumber(v: number): string {
-  if (!Number.isFinite(v)) return String(v);
-  if (v === 0) return "0";
-  const size = Math.abs(v);
-  return size >= 1000 || size < 0.001 ? v.toExponential(1) : size >= 100 ? v.toFixed(0) : String(Number(v.toPrecision(3)));
 }
 
 export function drawOverlay(canvas: HTMLCanvasElement, panes: Pane[], camera: Camera, marks: Marks): void {
@@ -90,7 +84,7 @@ const CHANNELS = ["rgb(255 150 150)", "rgb(140 240 140)", "rgb(160 190 255)"];
 function print(context: CanvasRenderingContext2D, layer: Layer, values: number[], at: [number, number], size: number): void {
   values.forEach((v, i) => {
     const y = at[1] + (i - (values.length - 1) / 2) * size * 1.2;
-    const text = layer.kind === "signed" || layer.kind === "smape" ? `${shortNumber(v)} %` : shortNumber(v);
+    const text = layer.kind === "signed" || layer.kind === "smape" ? v.toFixed(1).replace("-", "−") : figure(v);
     context.lineWidth = 3;
     context.lineJoin = "round";
     context.strokeStyle = "rgb(0 0 0 / 80%)";

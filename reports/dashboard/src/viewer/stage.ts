@@ -14,10 +14,17 @@ export interface Shown {
 
 const GAP = 2;
 
+function place(e: HTMLElement, { x, y, width, height }: Partial<Box>): void {
+  Object.assign(e.style, { left: `${x}px`, top: `${y}px` });
+  if (width !== undefined) Object.assign(e.style, { width: `${width}px`, height: `${height}px` });
+}
+
 export class Stage {
   readonly root = document.createElement("div");
   readonly handle = document.createElement("button");
   readonly knob = document.createElement("button");
+  readonly spare = document.createElement("div"); // the cell beside five panes in three columns; else hidden
+  arranged = () => {}; // called when the panes have their places
   fallback = ""; // why the slow renderer draws
   panes: Pane[] = [];
   camera: Camera | null = null; // null: the whole picture
@@ -39,7 +46,8 @@ export class Stage {
     this.knob.className = "stage-knob";
     this.overlay.setAttribute("aria-hidden", "true");
     this.renderer = this.makeRenderer();
-    this.root.append(this.renderer.canvas, this.overlay, this.labels, this.handle, this.knob);
+    this.spare.className = "stage-spare";
+    this.root.append(this.renderer.canvas, this.overlay, this.labels, this.spare, this.handle, this.knob);
     new ResizeObserver(() => this.arrange()).observe(this.root);
   }
 
@@ -112,13 +120,17 @@ export class Stage {
     const paneWidth = (width - (columns - 1) * GAP) / columns;
     const most = count === 1 ? Math.max(240, 0.72 * window.innerHeight) : Infinity;
     const paneHeight = Math.round(Math.min((paneWidth * this.size[1]) / this.size[0], most));
-    const box = (i: number): Box => ({
+    const cell = (i: number): Box => ({
       x: (i % columns) * (paneWidth + GAP),
       y: Math.floor(i / columns) * (paneHeight + GAP),
       width: paneWidth,
       height: paneHeight,
     });
-    this.panes = this.shown.map((s, i) => ({ box: box(i), layers: s.layers }));
+    // Of five in three columns the error maps stand under their images, and the spare cell under the reference.
+    const skips = count === 5 && columns === 3;
+    this.panes = this.shown.map((s, i) => ({ box: cell(skips && i >= 3 ? i + 1 : i), layers: s.layers }));
+    this.spare.hidden = !skips;
+    if (skips) place(this.spare, cell(3));
     const height = rows * paneHeight + (rows - 1) * GAP;
     this.root.style.height = `${height}px`;
     for (const canvas of [this.renderer.canvas, this.overlay]) {
@@ -130,6 +142,7 @@ export class Stage {
     }
     this.label();
     this.draw();
+    this.arranged();
   }
 
   private label(): void {
@@ -175,9 +188,8 @@ export class Stage {
     const angle = (this.divider.angle * Math.PI) / 180;
     const [x, y] = [box.x + this.divider.x * box.width, box.y + this.divider.y * box.height];
     const reach = Math.min(70, box.height / 4);
-    const place = (e: HTMLElement, left: number, top: number) => Object.assign(e.style, { left: `${left}px`, top: `${top}px` });
-    place(this.handle, x, y);
-    place(this.knob, x - Math.sin(angle) * reach, y + Math.cos(angle) * reach);
+    place(this.handle, { x, y });
+    place(this.knob, { x: x - Math.sin(angle) * reach, y: y + Math.cos(angle) * reach });
     const percent = (v: number) => String(Math.round(100 * v));
     this.handle.setAttribute("aria-valuenow", percent(this.divider.x));
     this.handle.setAttribute("aria-valuetext", `${percent(this.divider.x)} % across, ${percent(this.divider.y)} % down`);

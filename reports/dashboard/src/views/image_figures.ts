@@ -99,11 +99,11 @@ export function legends(kinds: Set<Kind>, look: Look): HTMLElement[] {
   const out: HTMLElement[] = [];
   const percent = (v: number) => `${figure(100 * v)} %`;
   if (kinds.has("luminance")) {
-    const ticks = [0, 2, 4, 6, 8, 10].map((i): [number, string] => [i / 10, figure(2 ** (STOPS.low + i) / look.exposure, 2)]);
+    const ticks = [0, 0.25, 0.5, 0.75, 1].map((t): [number, string] => [t, figure(2 ** (STOPS.low + t * (STOPS.high - STOPS.low)) / look.exposure, 2)]);
     out.push(bar("luminance, W/m²/sr", INFERNO, ticks));
   }
   if (kinds.has("signed"))
-    out.push(bar("error of luminance: too dark, too bright", SIGNED, [[0, `−${percent(look.range)}`], [0.5, "0"], [1, `+${percent(look.range)}`]]));
+    out.push(bar("error of luminance, too dark to too bright", SIGNED, [[0, `−${percent(look.range)}`], [0.5, "0"], [1, `+${percent(look.range)}`]]));
   if (kinds.has("smape")) out.push(bar("SMAPE of the pixel", INFERNO, [[0, "0"], [0.5, percent(look.range / 2)], [1, percent(look.range)]]));
   return out;
 }

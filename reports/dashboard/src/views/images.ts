@@ -20,6 +20,8 @@ class ImageView {
   private top = h("div");
   private below = h("div");
   private reading = h("div");
+  private beside = h("div");
+  private legend = h("div", { class: "legends" });
   private settings: Settings;
   private shots: Shot[] = [];
   private waiting = 0;
@@ -33,8 +35,9 @@ class ImageView {
 
   attach(root: HTMLElement): void {
     const notes = [...this.decoded.failures, this.stage.fallback].filter((n) => n !== "");
-    root.replaceChildren(this.top, ...notes.map((n) => h("p", { class: "warning" }, n)), this.stage.root, this.reading, this.below, keysHelp());
+    root.replaceChildren(this.top, ...notes.map((n) => h("p", { class: "warning" }, n)), this.stage.root, this.beside, this.below, keysHelp());
     this.stage.camera = this.settings.camera;
+    this.stage.arranged = () => (this.stage.spare.hidden ? this.beside : this.stage.spare).replaceChildren(this.reading, this.legend);
     this.update();
     root.dataset.ready = "yes";
   }
@@ -141,10 +144,8 @@ class ImageView {
 
   private showStatistics(): void {
     const kinds = new Set<Kind>(this.stage.panes.flatMap((pane) => pane.layers.map((layer) => layer.kind)));
-    this.below.replaceChildren(
-      h("div", { class: "legends" }, ...legends(kinds, this.stage.look)),
-      statisticsTable(this.page, this.chosen, this.decoded, this.stage.rectangle),
-    );
+    this.legend.replaceChildren(...legends(kinds, this.stage.look));
+    this.below.replaceChildren(statisticsTable(this.page, this.chosen, this.decoded, this.stage.rectangle));
   }
 }
 
