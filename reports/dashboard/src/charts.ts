@@ -52,8 +52,18 @@ export function logTicks(lo: number, hi: number, most = 12): number[] {
   return fine;
 }
 
-export function logAxis(domain: [number, number], label: string, most = 12): Plot.ScaleOptions {
-  return { type: "log", domain, label, ticks: logTicks(domain[0], domain[1], most), tickFormat: (v: number) => tick(v), grid: true };
+export function logScale(domain: [number, number]): Plot.ScaleOptions {
+  return { type: "log", domain, axis: null };
+}
+
+// Axes for logScale with all their ticks labelled; Plot's own leave 5, 50 and 500 without.
+export function logAxisX(domain: [number, number], label: string, most = 12): Plot.Markish[] {
+  const ticks = logTicks(domain[0], domain[1], most);
+  return [Plot.gridX(ticks), Plot.axisX(ticks, { label, text: tick })];
+}
+export function logAxisY(domain: [number, number], label: string, most = 10): Plot.Markish[] {
+  const ticks = logTicks(domain[0], domain[1], most);
+  return [Plot.gridY(ticks), Plot.axisY(ticks, { label, text: tick })];
 }
 
 export function tick(v: number): string {
