@@ -56,12 +56,25 @@ function stepsTable(page: Page, all: Temporal[], measure: Measure): HTMLElement 
   return h("details", {}, h("summary", { class: "soft" }, "Figures of the series"), table({ caption: `${measure} of each ${stepsWord[measure]}`, file: `${page.report.name}-${measure}-series`, rows, columns }));
 }
 
-// The URL lives as long as the picture is shown.
-function pictureOf(image: Image, words: string): HTMLElement {
+// A picture; one that moves has a button that stops it, and stands still where the reader's system asks for that.
+function pictureOf(image: Image, words: string, moves: boolean): HTMLElement {
   const url = URL.createObjectURL(new Blob([bytesOf(image.element) as BlobPart], { type: "image/png" }));
-  const element = h("img", { alt: words, load: () => URL.revokeObjectURL(url), error: () => element.replaceWith(h("p", { class: "failed" }, "The picture can't be read.")) });
+  const still = h("canvas", { role: "img", "aria-label": `${words} (its first frame)`, hidden: true });
+  const element = h("img", { alt: words, error: () => element.replaceWith(h("p", { class: "failed" }, "The picture can't be read.")) });
+  const button = h("button", { type: "button", click: () => stop(still.hidden) }, "Stop");
+  const stop = (on: boolean) => {
+    still.hidden = !on;
+    element.hidden = on;
+    button.textContent = on ? "Play" : "Stop";
+  };
+  element.addEventListener("load", () => {
+    URL.revokeObjectURL(url);
+    Object.assign(still, { width: element.naturalWidth, height: element.naturalHeight });
+    still.getContext("2d")!.drawImage(element, 0, 0);
+    if (moves && matchMedia("(prefers-reduced-motion: reduce)").matches) stop(true);
+  });
   element.src = url;
-  return h("figure", {}, element, h("figcaption", {}, words));
+  return h("figure", {}, element, still, h("figcaption", {}, words, " ", moves ? button : null));
 }
 
 function pictures(page: Page, all: Temporal[]): HTMLElement | null {
@@ -79,8 +92,8 @@ function pictures(page: Page, all: Temporal[]): HTMLElement | null {
     h("div", { class: "controls" }, pick),
     h(
       "div", { class: "flicker-pictures" },
-      digest.images[asked.worst] ? pictureOf(digest.images[asked.worst], `${name}: the crop that flickers most, beside the reference, over time`) : null,
-      digest.images[asked.profile] ? pictureOf(digest.images[asked.profile], `${name}: one row of pixels, time downwards; what flickers is dashed`) : null,
+      digest.images[asked.worst] ? pictureOf(digest.images[asked.worst], `${name}: the crop that flickers most, beside the reference, over time`, true) : null,
+      digest.images[asked.profile] ? pictureOf(digest.images[asked.profile], `${name}: one row of pixels, time downwards; what flickers is dashed`, false) : null,
     ),
   );
 }

@@ -14,6 +14,7 @@ interface Dot {
   measure: Measure;
   flicker: Flicker;
   colour: string;
+  symbol: Plot.SymbolType;
 }
 interface Step {
   label: string;
@@ -21,6 +22,7 @@ interface Step {
   value: number;
   worst: boolean;
   colour: string;
+  symbol: Plot.SymbolType;
   key: number;
 }
 
@@ -51,12 +53,12 @@ export function valuesChart(page: Page, all: Temporal[]): HTMLElement {
   const dots: Dot[] = all.flatMap((t) =>
     (["derivative", "static"] as const)
       .filter((m) => t[m] !== null)
-      .map((measure) => ({ label: names.get(t)!, measure, flicker: t[measure]!, colour: lookOf(page.digest, methodOf(page.report, t.case)).colour })),
+      .map((measure) => ({ label: names.get(t)!, measure, flicker: t[measure]!, ...lookOf(page.digest, methodOf(page.report, t.case)) })),
   );
   const lines = groundLines(all);
   const longest = Math.max(...[...names.values()].map((n) => n.length));
   const make = (width: number) => {
-    const marginLeft = Math.min(24 + 6.6 * longest, 0.45 * width);
+    const marginLeft = Math.min(26 + 7.2 * longest, 0.45 * width);
     const place = { x: (d: Dot) => d.flicker.value, y: "label" };
     return Plot.plot({
       ...base(width, 74 + 24 * names.size),
@@ -69,8 +71,8 @@ export function valuesChart(page: Page, all: Temporal[]): HTMLElement {
         Plot.ruleX(lines, { x: "value", stroke: "var(--soft)", strokeDasharray: "4 3" }),
         Plot.text(lines, { x: "value", text: "words", frameAnchor: "top", dy: -14, fill: "var(--soft)" }),
         Plot.ruleY(dots, { x1: (d: Dot) => d.flicker.lo, x2: (d: Dot) => d.flicker.hi, y: "label", stroke: "colour", strokeWidth: 1.5 }),
-        Plot.dot(dots.filter((d) => d.measure === "derivative"), { ...place, fill: "colour", r: 4.5 }),
-        Plot.dot(dots.filter((d) => d.measure === "static"), { ...place, fill: "var(--page)", stroke: "colour", strokeWidth: 1.5, r: 4.5 }),
+        Plot.dot(dots.filter((d) => d.measure === "derivative"), { ...place, symbol: "symbol", fill: "colour", r: 4.5 }),
+        Plot.dot(dots.filter((d) => d.measure === "static"), { ...place, symbol: "symbol", fill: "var(--page)", stroke: "colour", strokeWidth: 1.5, r: 4.5 }),
         Plot.tip(dots, Plot.pointer({ ...place, ...tipStyle, title: (d: Dot) => `${d.label}\n${d.measure} ${figure(d.flicker.value)} (${figure(d.flicker.lo)} to ${figure(d.flicker.hi)})` })),
       ],
       color: { type: "identity" },
@@ -85,8 +87,8 @@ export function stepsOf(page: Page, all: Temporal[], measure: Measure): Step[] {
   return all.flatMap((t, key) => {
     const found = t[measure];
     if (!found) return [];
-    const colour = lookOf(page.digest, methodOf(page.report, t.case)).colour;
-    return found.series.map((value, i) => ({ label: names.get(t)!, at: i + first, value, worst: i + first === found.worst_frame, colour, key }));
+    const look = lookOf(page.digest, methodOf(page.report, t.case));
+    return found.series.map((value, i) => ({ label: names.get(t)!, at: i + first, value, worst: i + first === found.worst_frame, ...look, key }));
   });
 }
 
@@ -104,10 +106,10 @@ export function seriesChart(page: Page, all: Temporal[], measure: Measure): HTML
       y: { label: `↑ ${measure}`, zero: true, nice: true, grid: true },
       marks: [
         Plot.ruleY(lines, { y: "value", stroke: "var(--soft)", strokeDasharray: "4 3" }),
-        Plot.text(lines, { y: "value", text: "words", frameAnchor: "right", textAnchor: "end", dy: -7, fill: "var(--soft)", stroke: "var(--page)", strokeWidth: 3 }),
         measure === "derivative" ? Plot.line(steps, { ...place, z: "key", stroke: "colour", strokeWidth: 1.5 }) : null,
-        Plot.dot(steps, { ...place, fill: "colour", r: steps.length > 600 ? 1 : 2.5 }),
-        Plot.dot(steps.filter((s) => s.worst), { ...place, r: 5.5, fill: "colour", stroke: "var(--ink)", strokeWidth: 1.5 }),
+        Plot.dot(steps, { ...place, symbol: "symbol", fill: "colour", r: steps.length > 600 ? 1.5 : 3 }),
+        Plot.dot(steps.filter((s) => s.worst), { ...place, symbol: "symbol", r: 6, fill: "colour", stroke: "var(--ink)", strokeWidth: 1.5 }),
+        Plot.text(lines, { y: "value", text: "words", frameAnchor: "left", textAnchor: "start", dx: 4, dy: -7, fill: "var(--soft)", stroke: "var(--page)", strokeWidth: 3 }),
         Plot.tip(steps, Plot.pointer({ ...place, ...tipStyle, title })),
       ],
       color: { type: "identity" },
