@@ -10,6 +10,7 @@ export interface Picture {
   height: number;
   // Linear RGB and coverage, four floats a pixel, the top row first; null of a PNG, which has no values.
   values: Float32Array | null;
+  covered: boolean; // coverage is known; else it is 1 throughout
   png: ImageBitmap | null; // already tone-mapped
 }
 
@@ -24,12 +25,13 @@ function topFirst(data: Float32Array, width: number, height: number): Float32Arr
 export function decodeExr(bytes: Uint8Array): Picture {
   const exr = parseExr(bytes.buffer as ArrayBuffer, FLOAT);
   if (exr.data.length !== 4 * exr.width * exr.height) throw new Error("the picture has no channels R, G and B");
-  return { width: exr.width, height: exr.height, values: topFirst(exr.data as Float32Array, exr.width, exr.height), png: null };
+  const covered = (exr.header as { channels: { name: string }[] }).channels.some((c) => c.name === "A");
+  return { width: exr.width, height: exr.height, values: topFirst(exr.data as Float32Array, exr.width, exr.height), covered, png: null };
 }
 
 export async function decodePng(bytes: Uint8Array): Promise<Picture> {
   const png = await createImageBitmap(new Blob([bytes as BlobPart], { type: "image/png" }));
-  return { width: png.width, height: png.height, values: null, png };
+  return { width: png.width, height: png.height, values: null, covered: false, png };
 }
 
 // Those used last are kept.

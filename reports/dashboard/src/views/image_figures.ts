@@ -25,7 +25,8 @@ function rowsOf(page: Page, chosen: Chosen, decoded: Decoded, part: Rectangle): 
   for (const [name, image, x, r] of [["A", chosen.a, a, reference], ["B", chosen.b, b, referenceOfB]] as const) {
     if (!image || !x?.values) continue;
     const found = r ? statistics(x, r, part) : null;
-    const reported = page.digest.reports[image.report].cases.errors.smape?.value[image.case] ?? null;
+    const errors = page.digest.reports[image.report].cases.errors.smape;
+    const reported = errors?.seeds[image.case]?.[0] ?? errors?.value[image.case] ?? null;
     rows.push({ name: `${name}: ${labelOf(page, image)}`, mean: found?.mean ?? meanOf(x, part), smape: found?.smape ?? null, rmse: found?.rmse ?? null, bad: found?.bad ?? 0, reported });
   }
   return rows;
@@ -44,6 +45,7 @@ export function statisticsTable(page: Page, chosen: Chosen, decoded: Decoded, re
   const bad = rows.reduce((sum, r) => sum + r.bad, 0);
   const notes = [
     missing > 0 ? `${missing} pixels show no surface and are left out.` : "",
+    decoded.reference && !decoded.reference.covered ? "Pixels without a surface count, unlike in the report." : "",
     bad > 0 ? `${bad} pixels hold a NaN or Inf: there is no error.` : "",
     rectangle ? "" : "Drag with Shift, or with Rectangle on, to choose a part.",
   ];
@@ -60,7 +62,7 @@ export function statisticsTable(page: Page, chosen: Chosen, decoded: Decoded, re
       mean(0, "R"), mean(1, "G"), mean(2, "B"),
       { key: "smape", title: "SMAPE", unit: "%", hint: "100 mean(|x−r| / ((|x|+|r|)/2)) over pixels and channels", value: (r) => r.smape, text: (r) => figure(r.smape, 4) },
       { key: "rmse", title: "RMSE", unit: "W/m²/sr", hint: "√mean((x−r)²) over pixels and channels", value: (r) => r.rmse, text: (r) => figure(r.rmse, 4) },
-      ...(rectangle ? [] : [{ key: "reported", title: "SMAPE in the report", unit: "%", hint: "over all seeds; the picture is of one", value: (r: Row) => r.reported, text: (r: Row) => figure(r.reported, 4) }]),
+      ...(rectangle ? [] : [{ key: "reported", title: "SMAPE in the report", unit: "%", hint: "of the first seed, whose picture this is", value: (r: Row) => r.reported, text: (r: Row) => figure(r.reported, 4) }]),
     ],
   });
 }
