@@ -34,6 +34,7 @@ export function changePath(change: string, r: number): string {
 // "+3.1 %" of 1.031.
 export function percentChange(ratio: number): string {
   const p = 100 * (ratio - 1);
+  if (Math.abs(p) < 0.05) return "0 %";
   const digits = Math.abs(p) < 10 ? 1 : 0;
   return `${p < 0 ? "−" : "+"}${Math.abs(p).toFixed(digits)} %`;
 }

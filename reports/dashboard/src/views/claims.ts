@@ -62,23 +62,33 @@ function axisOf(trials: Claim[], how: string): Axis | null {
 const ratioText = (t: Claim) =>
   t.ratio === null ? "–" : figure(t.ratio) + (t.lo === null || t.hi === null ? "" : ` [${figure(t.lo)} … ${figure(t.hi)}]`);
 
-function trialRow(t: Claim, axis: Axis | null): HTMLElement {
+// Columns that hold nothing for these trials are left out.
+interface Shown {
+  axis: Axis | null;
+  pairs: boolean;
+  why: boolean;
+}
+
+function trialRow(t: Claim, { axis, pairs, why }: Shown): HTMLElement {
   const ruling = rulingOf(t);
   const mark = axis && t.ratio !== null && intervalMark({ ...axis, bound: boundOf(t.how) }, {
     value: t.ratio, lo: t.lo ?? t.ratio, hi: t.hi ?? t.ratio, noise: null, shape: "", kind: kinds[ruling], label: `${t.place} ${t.metric}: ${ruling}, ratio ${ratioText(t)}` });
   return h("tr", {}, h("th", { scope: "row" }, t.place), h("td", {}, t.metric), h("td", {}, originOf(t)), h("td", {}, chip(ruling, null)),
-           h("td", {}, mark), h("td", { class: "figure" }, ratioText(t)), h("td", { class: "figure" }, t.pairs > 0 ? String(t.pairs) : "–"), h("td", { class: "why" }, t.why));
+           axis && h("td", { class: "mark" }, mark), axis && h("td", { class: "figure" }, ratioText(t)),
+           pairs && h("td", { class: "figure" }, t.pairs > 0 ? String(t.pairs) : "–"), why && h("td", { class: "why" }, t.why));
 }
 
 // The trials of one way to try it, on one axis: what is shaded is what the claim promises.
 function trialsTable(how: string, trials: Claim[]): HTMLElement[] {
-  const axis = axisOf(trials, how);
-  const head = ["scene", "metric", "tried in", "ruling"].map((t) => h("th", { scope: "col" }, t));
-  const axisCell = h("th", { scope: "col", "aria-label": "ratio, on an axis" }, axis && axisHead(axis));
-  const rest = ["ratio, and 95 % interval", "pairs", "why"].map((t) => h("th", { scope: "col" }, t));
+  const shown: Shown = { axis: axisOf(trials, how), pairs: trials.some((t) => t.pairs > 0), why: trials.some((t) => t.why !== "") };
+  const head = (text: string, figures = false) => h("th", { scope: "col", class: figures ? "figure" : false }, text);
+  const { axis } = shown;
   return [h("p", { class: "how" }, how),
           h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `Trials: ${how}` }, h("table", { class: "trials" },
-            h("thead", {}, h("tr", {}, ...head, axisCell, ...rest)), h("tbody", {}, ...trials.map((t) => trialRow(t, axis)))))];
+            h("thead", {}, h("tr", {}, head("scene"), head("metric"), head("tried in"), head("ruling"),
+                             axis && h("th", { scope: "col", "aria-label": "ratio, on an axis" }, axisHead(axis)), axis && head("ratio, and 95 % interval", true),
+                             shown.pairs && head("pairs", true), shown.why && head("why"))),
+            h("tbody", {}, ...trials.map((t) => trialRow(t, shown)))))];
 }
 
 // Its trials are drawn when it is opened.

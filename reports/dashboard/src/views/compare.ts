@@ -97,7 +97,7 @@ export const compareView: View = {
     if (c.rows.length === 0) return;
     const fill = () => {
       const rows = shownRows(c.rows, page.state);
-      const width = Math.max(130, Math.min(420, root.clientWidth - 250));
+      const width = Math.max(120, Math.min(420, root.clientWidth - 250));
       if (rows.length === 0) body.replaceChildren(h("p", {}, "No row is left by these filters: what is the same is hidden until it is asked for."));
       else body.replaceChildren(chart(rows, width), rowsTable(page, rows));
     };
