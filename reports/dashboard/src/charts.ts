@@ -30,10 +30,10 @@ export function plotDefaults(width: number, height: number): Plot.PlotOptions {
   };
 }
 
-// 1, 2 and 5 of each decade between two numbers; decades alone where there are many.
+// Round numbers between two: all digits of a decade, or fewer where there would be many.
 export function logTicks(lo: number, hi: number, most = 12): number[] {
   const ticks: number[] = [];
-  const steps = [[1, 2, 5], [1, 3], [1]];
+  const steps = [[1, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 3, 5, 7], [1, 2, 5], [1, 3], [1]];
   for (const step of steps) {
     ticks.length = 0;
     for (let e = Math.floor(Math.log10(lo)); e <= Math.ceil(Math.log10(hi)); ++e) {
@@ -52,8 +52,18 @@ export function logTicks(lo: number, hi: number, most = 12): number[] {
   return fine;
 }
 
-export function logAxis(domain: [number, number], label: string, most = 12): Plot.ScaleOptions {
-  return { type: "log", domain, label, ticks: logTicks(domain[0], domain[1], most), tickFormat: (v: number) => tick(v), grid: true };
+export function logScale(domain: [number, number]): Plot.ScaleOptions {
+  return { type: "log", domain, axis: null };
+}
+
+// Axes for logScale with all their ticks labelled; Plot's own leave 5, 50 and 500 without.
+export function logAxisX(domain: [number, number], label: string, most = 12): Plot.Markish[] {
+  const ticks = logTicks(domain[0], domain[1], most);
+  return [Plot.gridX(ticks), Plot.axisX(ticks, { label, text: tick })];
+}
+export function logAxisY(domain: [number, number], label: string, most = 8): Plot.Markish[] {
+  const ticks = logTicks(domain[0], domain[1], most);
+  return [Plot.gridY(ticks), Plot.axisY(ticks, { label, text: tick })];
 }
 
 export function tick(v: number): string {

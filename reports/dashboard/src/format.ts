@@ -10,7 +10,8 @@ export function figure(v: Maybe, digits = 3): string {
   if (v === 0) return "0";
   const size = Math.abs(v);
   let text: string;
-  if (size >= 1e6 || size < 1e-4) text = v.toExponential(digits - 1).replace("e+", "e");
+  if (Number.isInteger(v) && size < 10 ** (digits + 1)) text = String(v);
+  else if (size >= 1e6 || size < 1e-4) text = v.toExponential(digits - 1).replace("e+", "e");
   else if (size >= 10 ** (digits - 1)) text = v.toFixed(0);
   else text = v.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Number(size.toPrecision(digits))))));
   return text.replace("-", "−").replace("e-", "e−");

@@ -1,10 +1,15 @@
 // All views, in the order of their tabs.
 import type { View } from "./view";
+import { budgetView } from "./views/budget";
 import { casesView } from "./views/cases";
-import { historyView } from "./views/history";
-import { compareView } from "./views/compare";
-import { effectsView } from "./views/effects";
-import { stabilityView } from "./views/stability";
 import { claimsView } from "./views/claims";
+import { compareView } from "./views/compare";
+import { convergenceView } from "./views/convergence";
+import { effectsView } from "./views/effects";
+import { frontView } from "./views/front";
+import { historyView } from "./views/history";
+import { knobsView } from "./views/knobs";
+import { passesView } from "./views/passes";
+import { stabilityView } from "./views/stability";
 
-export const views: View[] = [casesView, historyView, compareView, effectsView, stabilityView, claimsView];
+export const views: View[] = [frontView, passesView, budgetView, knobsView, convergenceView, historyView, compareView, effectsView, stabilityView, claimsView, casesView];
