@@ -21,7 +21,7 @@ TEST_F(CliTest, DashboardWritesOnePage) {
   EXPECT_FALSE(contains(text, "<!--data-->"));
   // What a browser would fetch: a page from a file may ask nothing of a network.
   EXPECT_FALSE(contains(text, "src=\""));
-  EXPECT_FALSE(contains(text, "rel=\"stylesheet\""));
+  EXPECT_FALSE(contains(text, "href=\""));
 }
 
 TEST_F(CliTest, DashboardRefusesWhatItCanNotShow) {

@@ -159,6 +159,7 @@ std::vector<Opened> read_history(const std::vector<fs::path>& paths, Json* histo
 
 Dashboard make_dashboard(const DashboardOrder& order) {
   if (order.reports.empty()) throw fail(ErrorKind::usage, "dashboard: no report is named");
+  metric_title(order.pictures.metric);  // refuses what is none, before anything is read
   Json history = nullptr;
   std::vector<std::string> notes;
   const std::vector<Opened> opened =

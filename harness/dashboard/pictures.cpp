@@ -106,9 +106,13 @@ class Chooser {
 
   void add_image(size_t i, const std::string& path, const char* kind, PictureMode mode) {
     attempt(path, [&](const fs::path& file) {
-      const Image image = read_exr(file);
-      if (mode == PictureMode::exr && embed(i, kind, "exr", image.width, image.height, encode_half_exr(image)))
-        return;
+      ExrLayers layers = read_exr_layers(file);
+      if (!layers.colors.contains("")) throw fail(ErrorKind::output, "{}: lacks R, G and B", file.string());
+      const Image& image = layers.colors.at("");
+      const auto alpha = layers.scalars.find("A");
+      const std::vector<float> coverage = alpha == layers.scalars.end() ? std::vector<float>() : alpha->second;
+      const bool exr = mode == PictureMode::exr;
+      if (exr && embed(i, kind, "exr", image.width, image.height, encode_half_exr(image, coverage))) return;
       const auto factor = static_cast<float>(exposure(report_.cases[i]));
       if (!embed(i, kind, "png", image.width, image.height, encode_png(tone_map(image, factor)))) leave_out();
     });

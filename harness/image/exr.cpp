@@ -227,21 +227,25 @@ void write_exr(const fs::path& path, const ExrLayers& layers) {
   write_text(path, bytes);
 }
 
-std::string encode_half_exr(const Image& image) {
-  if (image.pixels.empty()) throw std::runtime_error("the image is empty");
+std::string encode_half_exr(const Image& image, const std::vector<float>& alpha) {
+  const size_t n = image.pixels.size();
+  if (n == 0) throw std::runtime_error("the image is empty");
+  if (!alpha.empty() && alpha.size() != n) throw std::logic_error("alpha is of another size");
+  // One channel after the other.
   std::vector<half> values;
-  values.reserve(3 * image.pixels.size());
-  for (const glm::vec3& p : image.pixels) {
-    for (int c = 0; c < 3; ++c) values.push_back(to_half(p[c]));
+  values.reserve(4 * n);
+  for (int c = 0; c < 3; ++c) {
+    for (const glm::vec3& p : image.pixels) values.push_back(to_half(p[c]));
   }
+  for (const float a : alpha) values.push_back(to_half(a));
   Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::FrameBuffer frame;
-  for (int c = 0; c < 3; ++c) {
-    const std::string name(1, "RGB"[c]);
+  for (size_t c = 0; c < values.size() / n; ++c) {
+    const std::string name(1, "RGBA"[c]);
     header.channels().insert(name, Imf::Channel(Imf::HALF));
-    frame.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(&values[c]), 3 * sizeof(half),
-                                  3 * sizeof(half) * image.width));
+    frame.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(&values[c * n]), sizeof(half),
+                                  sizeof(half) * image.width));
   }
   MemoryOutput memory;
   {

@@ -101,6 +101,11 @@ TEST_F(Exr, HalfFloatsAreTheNearest) {
     }
   }
   EXPECT_THROW(encode_half_exr(Image()), std::runtime_error);
+  std::vector<float> alpha(image.pixels.size(), 1);
+  alpha[5] = 0;
+  write_text(dir_ / "covered.exr", encode_half_exr(image, alpha));
+  EXPECT_EQ(read_exr_layers(dir_ / "covered.exr").scalars.at("A"), alpha);
+  EXPECT_TRUE(same_bits(read_exr(dir_ / "covered.exr"), back));
 }
 
 TEST_F(Exr, RowsRunFromTheTop) {
