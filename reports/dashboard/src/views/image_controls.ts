@@ -63,7 +63,7 @@ export function controls(page: Page, chosen: Chosen, shots: Shot[], s: Settings,
       h(
         "span", { class: "choice", role: "group", "aria-label": "Zoom" },
         h("span", {}, "Zoom"), button("im-out", "Zoom out", "−", () => actions.zoom(0.5)), button("im-in", "Zoom in", "+", () => actions.zoom(2)),
-        button("im-fit", "The whole picture", "Fit", () => actions.zoom(0)), button("im-pixels", "One pixel of the picture a pixel of the screen", "1:1", () => actions.toPixels()),
+        button("im-fit", "Fit the whole picture", "Fit", () => actions.zoom(0)), button("im-pixels", "1:1, one pixel of the picture a pixel of the screen", "1:1", () => actions.toPixels()),
       ),
       h("button", { type: "button", id: "im-tool", "aria-pressed": String(s.tool), title: "Drags draw a rectangle", click: () => actions.change({ tool: !s.tool }) }, "Rectangle"),
       s.rectangle && h("button", { type: "button", id: "im-clear", click: () => actions.change({ rectangle: null }) }, "Clear"),
