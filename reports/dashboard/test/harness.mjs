@@ -1,11 +1,10 @@
 // Opens pages in headless Chromium and notes what they must not do. Pages lie in the folder of
-// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it as NAME.json, else in reports/.
+// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it, NAME/report.json (make_pages.mjs).
 import { existsSync, readFileSync } from "node:fs";
-import { join, dirname } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const here = dirname(fileURLToPath(import.meta.url));
 const pages = process.env.VSGLBENCH_DASHBOARD_PAGES;
 if (!pages) throw new Error("VSGLBENCH_DASHBOARD_PAGES: not set; the folder of the pages under test");
 
@@ -32,10 +31,9 @@ export async function open(name, { hash = "", dark = false, width = 1280, height
   return page;
 }
 
+// The report.json that a page was made of.
 export function report(name) {
-  const beside = pages && join(pages, `${name}.json`);
-  const file = existsSync(beside) ? beside : join(here, "../..", `${name}-lavapipe`, "report.json");
-  return JSON.parse(readFileSync(file, "utf8"));
+  return JSON.parse(readFileSync(join(pages, name, "report.json"), "utf8"));
 }
 
 export async function close() {
