@@ -1,7 +1,8 @@
 // Error against time: figures are those of the report, filters change the front, the URL brings a view back.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { close, downloaded, isFigure, numbers, open, report, rowsOf, variant } from "./harness.mjs";
+import { close, downloaded, isFigure, numbers, open, report, rowsOf } from "./harness.mjs";
+import { made } from "./made.mjs";
 
 after(close);
 const front = report("front");
@@ -172,7 +173,7 @@ test("the table sorts, filters and saves what it shows", async () => {
 
 test("failed and skipped cases are listed, each with its reason", async () => {
   const page = await open(
-    variant("front", ({ reports: [r] }) => {
+    made("front", ({ reports: [r] }) => {
       const fail = (c, status, message) => {
         Object.assign(r.cases, { status: r.cases.status.with(c, status), message: r.cases.message.with(c, message), group: r.cases.group.with(c, -1) });
       };

@@ -1,21 +1,18 @@
 // Opens pages in headless Chromium and notes what they must not do. Pages lie in the folder of
-// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it as NAME.json, else in reports/.
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, isAbsolute, join } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
-import { deflateSync, inflateSync } from "node:zlib";
+// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it, NAME/report.json (make_pages.mjs).
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const here = dirname(fileURLToPath(import.meta.url));
 const pages = process.env.VSGLBENCH_DASHBOARD_PAGES;
 if (!pages) throw new Error("VSGLBENCH_DASHBOARD_PAGES: not set; the folder of the pages under test");
 
-let browser, scratch, variants = 0;
+let browser;
 
 // -> a page with `errors` (of console and script) and `requests` (all that leave it); both must stay empty.
 export async function open(name, { hash = "", dark = false, width = 1280, height = 900 } = {}) {
-  const file = isAbsolute(name) ? name : join(pages, `${name}.html`);
+  const file = join(pages, `${name}.html`);
   if (!existsSync(file)) throw new Error(`${file}: not there`);
   browser ??= await chromium.launch({
     executablePath: process.env.VSGLBENCH_CHROMIUM ?? "/usr/bin/chromium",
@@ -34,10 +31,9 @@ export async function open(name, { hash = "", dark = false, width = 1280, height
   return page;
 }
 
+// The report.json that a page was made of.
 export function report(name) {
-  const beside = pages && join(pages, `${name}.json`);
-  const file = existsSync(beside) ? beside : join(here, "../..", `${name}-lavapipe`, "report.json");
-  return JSON.parse(readFileSync(file, "utf8"));
+  return JSON.parse(readFileSync(join(pages, name, "report.json"), "utf8"));
 }
 
 export function has(name) {
@@ -47,20 +43,6 @@ export function has(name) {
 export async function close() {
   await browser?.close();
   browser = undefined;
-  if (scratch) rmSync(scratch, { recursive: true, force: true });
-  scratch = undefined;
-}
-
-// A page like NAME with other data: `change` is given what the page holds. -> a name for `open`.
-export function variant(name, change) {
-  const html = readFileSync(join(pages, `${name}.html`), "utf8");
-  const [, before, data] = /(<script[^>]*id="data"[^>]*>)([^<]*)</.exec(html);
-  const digest = JSON.parse(inflateSync(Buffer.from(data, "base64")).toString());
-  change(digest);
-  scratch ??= mkdtempSync(join(tmpdir(), "dashboard-"));
-  const file = join(scratch, `${name}-${++variants}.html`);
-  writeFileSync(file, html.replace(before + data, () => before + deflateSync(JSON.stringify(digest)).toString("base64")));
-  return file;
 }
 
 // Numbers of a text as the page writes them: "1.02 (−0.5 to 3e−5)".

@@ -1,7 +1,8 @@
 // Every view of every page: no error, nothing leaves the page; large reports are fast enough; light, dark and keys.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { close, has, open, report, variant } from "./harness.mjs";
+import { close, has, open, report } from "./harness.mjs";
+import { made } from "./made.mjs";
 
 after(close);
 const names = ["front", "flicker", "history", "images", "pair"].filter(has);
@@ -71,7 +72,7 @@ function many({ reports: [r] }) {
 }
 
 test("10,000 cases: the first view within 3 s, a filter within 1 s", async () => {
-  const file = variant("front", many);
+  const file = made("front", many);
   const begun = Date.now();
   const page = await open(file);
   await page.waitForSelector(".plot svg circle, .plot svg path");
