@@ -10,10 +10,29 @@ export function chart(label: string, make: (width: number) => Element, caption?:
   const draw = (now: number) => {
     if (now < 50 || Math.abs(now - width) < 2) return;
     width = now;
-    box.replaceChildren(make(now));
+    const plot = make(now);
+    plainMarks(plot);
+    box.replaceChildren(plot);
   };
   new ResizeObserver((entries) => draw(Math.floor(entries[0].contentRect.width))).observe(box);
   return h("figure", {}, box, caption ? h("figcaption", {}, caption) : null);
+}
+
+// Plot names its marks with aria-label, which an element without a role must not have: data-mark then.
+export function plainMarks(plot: Element): void {
+  for (const mark of plot.querySelectorAll("[aria-label]")) {
+    mark.setAttribute("data-mark", mark.getAttribute("aria-label")!);
+    mark.removeAttribute("aria-label");
+  }
+}
+
+// A plot as one picture with a name.
+export function pictureOf(plot: Element, label: string): SVGElement {
+  plainMarks(plot);
+  const picture = (plot.tagName.toLowerCase() === "svg" ? plot : plot.querySelector("svg")!) as SVGElement;
+  picture.setAttribute("role", "img");
+  picture.setAttribute("aria-label", label);
+  return picture;
 }
 
 // Options that every Plot.plot begins with.
@@ -30,10 +49,10 @@ export function plotDefaults(width: number, height: number): Plot.PlotOptions {
   };
 }
 
-// 1, 2 and 5 of each decade between two numbers; decades alone where there are many.
+// Round numbers between two: all digits of a decade, or fewer where there would be many.
 export function logTicks(lo: number, hi: number, most = 12): number[] {
   const ticks: number[] = [];
-  const steps = [[1, 2, 5], [1, 3], [1]];
+  const steps = [[1, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 3, 5, 7], [1, 2, 5], [1, 3], [1]];
   for (const step of steps) {
     ticks.length = 0;
     for (let e = Math.floor(Math.log10(lo)); e <= Math.ceil(Math.log10(hi)); ++e) {
@@ -61,7 +80,7 @@ export function logAxisX(domain: [number, number], label: string, most = 12): Pl
   const ticks = logTicks(domain[0], domain[1], most);
   return [Plot.gridX(ticks), Plot.axisX(ticks, { label, text: tick })];
 }
-export function logAxisY(domain: [number, number], label: string, most = 10): Plot.Markish[] {
+export function logAxisY(domain: [number, number], label: string, most = 8): Plot.Markish[] {
   const ticks = logTicks(domain[0], domain[1], most);
   return [Plot.gridY(ticks), Plot.axisY(ticks, { label, text: tick })];
 }

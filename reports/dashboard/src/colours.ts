@@ -1,7 +1,7 @@
 // A method's colour and symbol: fixed by its place in the lists of the page's reports, never moved by a filter.
 import { symbolCircle, symbolCross, symbolDiamond, symbolSquare, symbolStar, symbolTriangle, symbolWye, symbol as path } from "d3";
 import type { SymbolType } from "@observablehq/plot";
-import type { Digest } from "./data";
+import type { Digest, Report } from "./data";
 import { svg } from "./dom";
 
 export interface Look {
@@ -39,10 +39,22 @@ export function lookOf(digest: Digest, method: string): Look {
   return lookAt(Math.max(0, allMethods(digest).indexOf(method)));
 }
 
-// Colours for parts of a whole (passes), by place: the same hues, then lighter.
-export function partColour(place: number): string {
-  return `var(--part-${place % 16})`;
+// A pass has its stage's hue; passes of one stage fade in the frame's order. By index in Report.passes.
+export function passColours(report: Report): string[] {
+  const stage = (name: string): string => {
+    if (name === "gbuffer" || name === "rsm") return "raster";
+    const words = name.split(".");
+    const known = words[0] === "generate" ? `generate-${words[1]}` : words[0];
+    return kStages.includes(known) ? known : "other";
+  };
+  const stages = report.passes.map(stage);
+  return stages.map((s, i) => {
+    const place = stages.slice(0, i).filter((t) => t === s).length, count = stages.filter((t) => t === s).length;
+    const share = count < 2 ? 100 : 100 - (60 * place) / (count - 1);
+    return `color-mix(in srgb, var(--stage-${s}) ${share.toFixed(0)}%, var(--page))`;
+  });
 }
+const kStages = ["raster", "importance", "generate-rsm", "generate-gbuffer", "visibility", "shade"];
 
 // The symbol alone, for legends; says nothing to a screen reader.
 export function swatch(look: Look, size = 12): SVGElement {

@@ -14,10 +14,10 @@ export function decode(bytes) {
   return { width: exr.width, height: exr.height, rows, covered: exr.header.channels.some((c) => c.name === "A") };
 }
 
-// Of a path in the report, below the page's folder.
+// Of a path in the report behind images.html.
 export function readPicture(path) {
-  const file = join(pages, path);
-  if (!existsSync(file)) throw new Error(`${file}: not there; the pages' folder holds the report's images/`);
+  const file = join(pages, "images", path);
+  if (!existsSync(file)) throw new Error(`${file}: not there`);
   return decode(readFileSync(file));
 }
 

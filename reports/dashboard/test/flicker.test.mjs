@@ -71,12 +71,12 @@ async function hover(page, chart, places) {
   for (const [x, y] of places) {
     await page.mouse.move(x, y);
     await page.waitForTimeout(60);
-    texts.push((await page.locator(".chart").nth(chart).locator("g[aria-label='tip']").textContent()) ?? "");
+    texts.push((await page.locator(".chart").nth(chart).locator("g:is([aria-label='tip'], [data-mark='tip'])").textContent()) ?? "");
   }
   return texts;
 }
 // Middles of the marks of the n-th group of dots on the screen.
-const marks = (page, chart, group) => page.locator(".chart").nth(chart).locator("g[aria-label='dot']").nth(group).locator("path, circle").evaluateAll((all) => all.map((e) => {
+const marks = (page, chart, group) => page.locator(".chart").nth(chart).locator("g[data-mark='dot']").nth(group).locator("path, circle").evaluateAll((all) => all.map((e) => {
   const b = e.getBoundingClientRect();
   return [b.x + b.width / 2, b.y + b.height / 2];
 }));
@@ -104,7 +104,7 @@ test("hovering tells the report's figures", async () => {
 test("ground lines stand for noise floor and black image", async () => {
   const page = await look();
   const x = (g) => page.locator(".chart").first().locator(g).evaluateAll((all) => all.map((e) => e.getBoundingClientRect()).map((b) => b.x + b.width / 2));
-  const lines = await x("g[aria-label='rule'] line[stroke-dasharray], g[aria-label='rule'][stroke-dasharray] line");
+  const lines = await x("g[data-mark='rule'] line[stroke-dasharray], g[data-mark='rule'][stroke-dasharray] line");
   const dots = (await marks(page, 0, 0)).map(([left]) => left);
   // Places grow evenly with values: two dots tell where the lines must be.
   const v = cases.map((c) => c.temporal.derivative.value);

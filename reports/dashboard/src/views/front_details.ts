@@ -1,6 +1,6 @@
 // The panel beside the chart: one point's settings, passes, figures, and its neighbours on the front.
 import { settingsOf } from "../choice";
-import { lookOf, partColour, swatch } from "../colours";
+import { lookOf, passColours, swatch } from "../colours";
 import { h } from "../dom";
 import { bytes, figure, signed, withInterval, withUnit } from "../format";
 import type { Placed } from "../pareto";
@@ -48,7 +48,8 @@ function passes(data: FrontData, c: number): HTMLElement | null {
   const { report } = data.page;
   const of = report.cases.passes[c];
   if (!of || of.pass.length === 0) return null;
-  const all = of.pass.map((p, i) => ({ name: report.passes[p], colour: partColour(p), ms: of.ms[i] }));
+  const colours = passColours(report);
+  const all = of.pass.map((p, i) => ({ name: report.passes[p], colour: colours[p], ms: of.ms[i] }));
   const sum = all.reduce((s, p) => s + p.ms, 0);
   const bar = h("div", { class: "bar", role: "img", "aria-label": "Shares of the passes" }, ...all.map((p) => h("span", { style: `flex-grow: ${p.ms / sum}; background: ${p.colour}`, title: `${p.name} ${withUnit(p.ms, " ms")}` })));
   const most = [...all].sort((a, b) => b.ms - a.ms);

@@ -1,0 +1,157 @@
+// The history, with figures that are known: series i has 10 (i + 1) ms, but for the steps.
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+import { close, open } from "./harness.mjs";
+import { made, madeHistory } from "./made.mjs";
+import { assertSound } from "./sound.mjs";
+
+after(close);
+
+// Series 0, 2, 4 are of cornell, 1, 3, 5 of ring514; methods mfis, fis, vpl in turn.
+const steps = [[2, 20, 1.1], [4, 30, 0.9, false], [2, 40, 0.95]];
+const few = () => madeHistory({ reports: 50, series: 6, steps, refused: [25] });
+const page = (history, options) => open(made("front", (d) => { d.history = history; }), { ...options, hash: `v=history${options?.hash ?? ""}` });
+const tip = (p) => p.locator(".history-tip:not([hidden])");
+
+// A point of a chart: its report as a share of those shown, its height as a share of the frame's.
+async function at(p, frame, share, height = 0.4) {
+  await frame.scrollIntoViewIfNeeded();
+  const box = await frame.boundingBox();
+  return { x: box.x + 64 + share * (box.width - 64 - 20), y: box.y + height * box.height };
+}
+async function hover(p, frame, share, height) {
+  const { x, y } = await at(p, frame, share, height);
+  await p.mouse.move(x, y);
+}
+
+test("the persistent changes lead to their series, with its figures", async () => {
+  const p = await page(few());
+  const lists = p.locator("section.table");
+  assert.equal(await lists.nth(0).locator("tbody tr").count(), 2);
+  assert.equal(await lists.nth(1).locator("tbody tr").count(), 3);
+  const first = await lists.nth(0).locator("tbody tr").first().locator("th, td").allTextContents();
+  assert.deepEqual(first.slice(0, 8), ["41", "▼ faster", "−5.0 %", "−5.9 %", "−4.1 %", "method time", "cornell", "vpl N=2"]);
+  await lists.nth(0).locator("tbody tr").nth(1).click();
+  const opened = p.locator("#hi-opened");
+  assert.match(await opened.locator("h3").textContent(), /cornell · vpl N=2/);
+  const text = await opened.locator(".opened-figures").innerText();
+  assert.match(text, /method time 33 ms \[32\.67 … 33\.33\]/);
+  assert.match(text, /since the report before \+10 %/);
+  assert.match(text, /▲ slower \+10 % \[\+8\.9 % … \+11 %\], persistent/);
+  assert.match(text, /report 21 of 50: 0015001500, 2026-01-21/);
+  assert.match(text, /A\/A noise ± 2 %/);
+  assert.match(p.url(), /hi\.s=2&hi\.r=20/);
+  await assertSound(p);
+});
+
+test("hovering gives commit, date, settings and the figure with its interval", async () => {
+  const p = await page(few(), { hash: "&hi.s=2" });
+  const frame = p.locator("#hi-opened .history-frame");
+  await hover(p, frame, 1);
+  const text = await tip(p).innerText();
+  assert.match(text, /method time 31\.35 ms \[31\.04 … 31\.66\]/); // 30 × 1.1 × 0.95
+  assert.match(text, /since the first \+4\.5 %/);
+  assert.match(text, /report 50 of 50: 0032003200, 2026-02-19/);
+  assert.match(text, /settings nightly, llvmpipe/);
+  await hover(p, frame, 25 / 49);
+  assert.match(await tip(p).innerText(), /not compared: the references differ/);
+  assert.equal(await frame.locator(".cross title").textContent(), "001a001 was not compared: the references differ");
+});
+
+test("changes are marked on their line: by direction, and whether they lasted", async () => {
+  const p = await page(few(), { hash: "&hi.scene=cornell&hi.b=absolute" });
+  const marks = await p.locator(".history-panels .marks path").evaluateAll((paths) => paths.map((m) => ({ d: m.getAttribute("d"), kind: m.getAttribute("class"), fill: getComputedStyle(m).fill })));
+  assert.deepEqual(marks.map((m) => m.kind).sort(), ["change-better", "change-better passing", "change-worse"]);
+  const of = (kind) => marks.find((m) => m.kind === kind);
+  assert.notEqual(of("change-worse").d, of("change-better").d);
+  assert.notEqual(of("change-better").fill, of("change-better passing").fill);
+});
+
+test("noise lies round the level between two changes, twice as wide as the intervals", async () => {
+  const p = await page(few(), { hash: "&hi.s=2&hi.r=20&hi.b=absolute" });
+  const bands = await p.locator("#hi-opened .noise").evaluateAll((rects) => rects.map((r) => ({ height: r.getBoundingClientRect().height, width: r.getBoundingClientRect().width })));
+  const whisker = await p.locator("#hi-opened .whisker").evaluate((l) => l.getBoundingClientRect().height);
+  assert.equal(bands.length, 3); // 30, 33 and 31.35 ms
+  assert.ok(Math.abs(bands[1].height / whisker - 2) < 0.03, `${bands[1].height} and ${whisker}`);
+  assert.ok(bands[1].height > bands[0].height && bands[0].width > bands[2].width);
+});
+
+test("the mean of a method takes steps with its series, none where one begins late", async () => {
+  const history = madeHistory({ reports: 30, series: 4, methods: ["mfis"], scenes: ["cornell"], steps: [[1, 10, 1.21]] });
+  for (const name of ["value", "lo", "hi"]) history.series[3].values.method[name].fill(null, 0, 15);
+  const p = await page(history, { hash: "&hi.l=mean" });
+  const frame = p.locator(".history-frame").first();
+  const since = async (share) => {
+    await hover(p, frame, share);
+    return (await tip(p).innerText()).match(/since the first (.*)/)[1];
+  };
+  assert.equal(await since(5 / 29), "0 %");
+  assert.equal(await since(12 / 29), "+6.6 %"); // one of three by 1.21: the cube root of it
+  assert.equal(await since(1), "+6.6 %");
+  await hover(p, frame, 10 / 29);
+  assert.match(await tip(p).innerText(), /changed most: mfis N=1 \+21 %/);
+});
+
+test("arrow keys go from report to report and line to line, Enter opens", async () => {
+  const p = await page(few(), { hash: "&hi.scene=cornell&hi.b=absolute" });
+  await p.locator(".history-frame").first().focus();
+  await p.keyboard.press("ArrowLeft");
+  assert.match(await tip(p).innerText(), /mfis N=0[\s\S]* 10 ms[\s\S]*report 50 of 50/);
+  await p.keyboard.press("ArrowLeft");
+  await p.keyboard.press("ArrowUp");
+  assert.match(await tip(p).innerText(), /vpl N=2[\s\S]* 31\.35 ms[\s\S]*report 49 of 50/);
+  assert.match(await p.locator(".history-panel [aria-live]").first().textContent(), /vpl N=2/);
+  await p.keyboard.press("Enter");
+  assert.match(await p.locator("#hi-opened h3").textContent(), /vpl N=2/);
+});
+
+test("dragging zooms, a button shows all again, and filters last in the URL", async () => {
+  const p = await page(few(), { hash: "&hi.scene=cornell" });
+  const frame = p.locator(".history-frame").first();
+  const from = await at(p, frame, 10 / 49), to = await at(p, frame, 30 / 49);
+  await p.mouse.move(from.x, from.y);
+  await p.mouse.down();
+  await p.mouse.move(to.x, to.y, { steps: 4 });
+  await p.mouse.up();
+  assert.match(p.url(), /hi\.from=10&hi\.to=30/);
+  await p.getByRole("searchbox", { name: "Series" }).fill("N=4");
+  await p.locator(".history-panel h3", { hasText: "1 series" }).waitFor();
+  await p.getByLabel("Column").selectOption("smape");
+  await p.reload();
+  await p.waitForSelector(".history-panel");
+  assert.match(await p.locator(".history-panel h3").first().textContent(), /cornell: SMAPE, 1 series/);
+  await hover(p, p.locator(".history-frame").first(), 1);
+  assert.match(await tip(p).innerText(), /fis N=4[\s\S]*SMAPE 9 %[\s\S]*report 31 of 50/);
+  await p.getByRole("button", { name: "All 50 reports" }).click();
+  assert.doesNotMatch(p.url(), /hi\.from/);
+  assert.deepEqual(p.errors, []);
+});
+
+test("the figures of the lines are a table, too", async () => {
+  const p = await page(few(), { hash: "&hi.s=2" });
+  await p.getByText("Figures of vpl N=2 as a table").click();
+  const rows = p.locator("details.later tbody tr");
+  assert.equal(await rows.count(), 50);
+  assert.deepEqual((await rows.nth(20).locator("th, td").allTextContents()).slice(4, 8), ["vpl N=2", "33", "32.67", "33.33"]);
+});
+
+test("300 reports of 500 series: first view in 3 s, a filter in 1 s", async () => {
+  const many = madeHistory({ reports: 300, series: 500, steps: Array.from({ length: 70 }, (_, i) => [7 * i, 181, 1.1]), scenes: ["cornell", "ring514", "colonnade", "sponza"] });
+  const p = await page(many);
+  const first = await p.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime);
+  assert.equal(await p.locator(".history-panel").count(), 4);
+  const time = (id, value) => p.evaluate(([id, value]) => new Promise((done) => {
+    const start = performance.now(), select = document.getElementById(id);
+    select.value = value;
+    select.dispatchEvent(new Event("change"));
+    requestAnimationFrame(() => setTimeout(() => done(performance.now() - start)));
+  }), [id, value]);
+  const each = await time("hi-l", "each"), scene = await time("hi-scene", "cornell"), column = await time("hi-c", "smape");
+  console.log(`first view ${first.toFixed(0)} ms; every series ${each.toFixed(0)} ms, a scene ${scene.toFixed(0)} ms, a column ${column.toFixed(0)} ms`);
+  assert.match(await p.locator(".history-panel h3").first().textContent(), /cornell: SMAPE, 125 series/);
+  assert.ok(first < 3000 && Math.max(each, scene, column) < 1000);
+});
+
+test("dark and narrow are sound", async () => {
+  await assertSound(await page(few(), { dark: true, width: 400, hash: "&hi.s=2" }));
+});
