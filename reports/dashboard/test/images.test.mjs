@@ -30,7 +30,12 @@ function clean(page) {
   assert.deepEqual(page.requests, []);
 }
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-const state = async (page, key) => page.evaluate((k) => new URLSearchParams(location.hash.slice(1)).get(k), key);
+// The page writes it a quarter of a second after a change.
+const written = (page) => page.waitForTimeout(400);
+const state = async (page, key) => {
+  await written(page);
+  return page.evaluate((k) => new URLSearchParams(location.hash.slice(1)).get(k), key);
+};
 const number = (text) => Number(text.replace("−", "-").replace("e−", "e-").replace(/[ %]/g, ""));
 const near = (got, want, share, least = 0, what = "") => assert.ok(Math.abs(got - want) <= share * Math.abs(want) + least, `${what}: ${got}, not ${want}`);
 
@@ -339,6 +344,7 @@ test("the URL restores what was chosen", async () => {
   for (const key of ["e", "+", "+"]) await page.keyboard.press(key);
   await settle(page);
   const before = await looked(page);
+  await written(page);
   const text = await page.evaluate(() => location.hash.slice(1));
   const again = await open("images", { hash: text });
   await again.waitForSelector("#im-body[data-ready]");

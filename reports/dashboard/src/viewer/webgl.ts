@@ -15,7 +15,8 @@ export class WebGlRenderer implements Renderer {
 
   // Throws where there is no WebGL2.
   constructor(onLost: () => void) {
-    const gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false });
+    // What is drawn is kept for printing.
+    const gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL2");
     this.gl = gl;
     this.program = this.link();

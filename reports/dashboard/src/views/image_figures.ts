@@ -5,7 +5,7 @@ import { table } from "../table";
 import type { Page } from "../view";
 import { gradient, INFERNO, SIGNED } from "../viewer/ramps";
 import { type Kind, type Look, STOPS, valuesAt } from "../viewer/scene";
-import { meanOf, type Rectangle, statistics } from "../viewer/statistics";
+import { meanOf, type Rectangle, type Statistics, statistics } from "../viewer/statistics";
 import { type Chosen, type Decoded, labelOf, type Shot } from "./image_choice";
 
 interface Row {
@@ -17,11 +17,10 @@ interface Row {
   reported: number | null;
 }
 
-function rowsOf(page: Page, chosen: Chosen, decoded: Decoded, part: Rectangle): Row[] {
+function rowsOf(page: Page, chosen: Chosen, decoded: Decoded, own: Statistics | null, part: Rectangle): Row[] {
   const rows: Row[] = [];
   const { reference, a, b, referenceOfB } = decoded;
-  if (reference?.values)
-    rows.push({ name: "reference", mean: meanOf(reference, part), smape: null, rmse: null, bad: statistics(reference, reference, part)?.bad ?? 0, reported: null });
+  if (own) rows.push({ name: "reference", mean: own.mean, smape: null, rmse: null, bad: own.bad, reported: null });
   for (const [name, image, x, r] of [["A", chosen.a, a, reference], ["B", chosen.b, b, referenceOfB]] as const) {
     if (!image || !x?.values) continue;
     const found = r ? statistics(x, r, part) : null;
@@ -36,9 +35,10 @@ function rowsOf(page: Page, chosen: Chosen, decoded: Decoded, part: Rectangle): 
 export function statisticsTable(page: Page, chosen: Chosen, decoded: Decoded, rectangle: Rectangle | null): HTMLElement {
   const [width, height] = decoded.size;
   const part = rectangle ?? { x: 0, y: 0, width, height };
-  const rows = rowsOf(page, chosen, decoded, part);
+  const own = decoded.reference ? statistics(decoded.reference, decoded.reference, part) : null;
+  const rows = rowsOf(page, chosen, decoded, own, part);
   if (rows.length === 0) return h("p", { class: "note" }, "PNG pictures have no values: no statistics.");
-  const surface = decoded.reference ? (statistics(decoded.reference, decoded.reference, part)?.pixels ?? 0) : part.width * part.height;
+  const surface = decoded.reference?.values ? (own?.pixels ?? 0) : part.width * part.height;
   const where = `${part.width} × ${part.height} px`;
   const caption = rectangle ? `Rectangle at (${part.x}, ${part.y}), ${where}` : `Whole picture, ${where}`;
   const missing = part.width * part.height - surface;

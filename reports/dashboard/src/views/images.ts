@@ -12,6 +12,7 @@ import { legends, readout, statisticsTable } from "./image_figures";
 import { onHandleKey, onKey } from "./image_keys";
 import { inside, readSettings, type Settings, writeSettings } from "./image_settings";
 
+const WRITE_MS = 250;
 // One WebGL context for as long as the page stands.
 let stage: Stage | null = null;
 let current: ImageView | null = null;
@@ -25,6 +26,7 @@ class ImageView {
   private settings: Settings;
   private shots: Shot[] = [];
   private waiting = 0;
+  private unwritten = 0; // timer
   private actions: Actions;
 
   constructor(private page: Page, private chosen: Chosen, private decoded: Decoded, private stage: Stage) {
@@ -61,7 +63,7 @@ class ImageView {
   // After a gesture.
   moved(): void {
     const { camera, divider, rectangle } = this.stage;
-    this.change({ camera, divider, rectangle });
+    this.change(rectangle === this.settings.rectangle ? { camera, divider } : { camera, divider, rectangle });
   }
   // While one goes on: the figures alone, once a frame.
   hovered(): void {
@@ -72,10 +74,17 @@ class ImageView {
     });
   }
 
+  // Writes what is still unwritten; the state is not written at every turn of a wheel, which browsers refuse.
+  flush(): void {
+    clearTimeout(this.unwritten);
+    if (this.unwritten !== 0) writeSettings(this.page.state, this.settings);
+    this.unwritten = 0;
+  }
+
   private change(changes: Partial<Settings>): void {
     this.settings = { ...this.settings, ...changes };
-    writeSettings(this.page.state, this.settings);
-    this.update();
+    this.unwritten ||= window.setTimeout(() => this.flush(), WRITE_MS);
+    this.update(Object.keys(changes));
   }
 
   private zoom(factor: number): void {
@@ -94,16 +103,20 @@ class ImageView {
     return { exposure: (report.scenes[scene]?.exposure ?? 1) * 2 ** this.settings.stops, range: this.settings.range };
   }
 
-  private update(): void {
+  // `changed`: keys of the settings; absent: all. Moving and panning draw the pictures alone.
+  private update(changed?: string[]): void {
     const s = this.settings;
-    this.shots = shotsOf(this.page, this.chosen, this.decoded, s.falseColour, s.error);
-    if (!this.shots.some((shot) => shot.id === s.left)) s.left = "r";
-    if (!this.shots.some((shot) => shot.id === s.right)) s.right = this.shots[1]?.id ?? "r";
     Object.assign(this.stage, { look: this.look(), divider: s.divider, rectangle: s.rectangle });
-    this.showPanes();
-    this.showControls();
+    if (!changed?.every((key) => key === "camera" || key === "divider")) {
+      this.shots = shotsOf(this.page, this.chosen, this.decoded, s.falseColour, s.error);
+      if (!this.shots.some((shot) => shot.id === s.left)) s.left = "r";
+      if (!this.shots.some((shot) => shot.id === s.right)) s.right = this.shots[1]?.id ?? "r";
+      this.showPanes();
+      this.showControls(changed);
+      this.showLegends();
+      if (!changed || changed.includes("rectangle")) this.showStatistics();
+    }
     this.reading.replaceChildren(readout(this.shots, this.stage.pixel));
-    this.showStatistics();
     this.stage.redraw();
   }
 
@@ -123,11 +136,11 @@ class ImageView {
     this.stage.root.setAttribute("aria-label", `Pictures: ${words}. Exposure ${s.stops} stops over the scene's.`);
   }
 
-  private showControls(): void {
+  private showControls(changed?: string[]): void {
     const focused = document.activeElement?.id;
-    const dragged = document.activeElement instanceof HTMLInputElement && document.activeElement.type === "range" ? document.activeElement : null;
     const fresh = controls(this.page, this.chosen, this.shots, this.settings, this.actions);
-    if (dragged && this.top.contains(dragged)) return this.keepSlider(dragged, fresh);
+    const slider = this.top.querySelector<HTMLInputElement>("#im-exposure");
+    if (slider && changed?.join() === "stops") return this.keepSlider(slider, fresh);
     this.top.replaceChildren(...fresh);
     if (focused && document.activeElement?.id !== focused) document.getElementById(focused)?.focus({ preventScroll: true });
   }
@@ -142,9 +155,11 @@ class ImageView {
     if (Number(slider.value) !== this.settings.stops) slider.value = String(this.settings.stops);
   }
 
-  private showStatistics(): void {
+  private showLegends(): void {
     const kinds = new Set<Kind>(this.stage.panes.flatMap((pane) => pane.layers.map((layer) => layer.kind)));
     this.legend.replaceChildren(...legends(kinds, this.stage.look));
+  }
+  private showStatistics(): void {
     this.below.replaceChildren(statisticsTable(this.page, this.chosen, this.decoded, this.stage.rectangle));
   }
 }
@@ -170,6 +185,7 @@ export const imagesView: View = {
   filters: ["group"],
   has: ({ digest }) => digest.images.some(isScenePicture),
   draw(root, page) {
+    current?.flush();
     const chosen = choose(page);
     if (!chosen.a && !chosen.reference) {
       current = null;
