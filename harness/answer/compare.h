@@ -21,7 +21,9 @@ struct CompareOptions {
   // times are divided by what all of a scene takes longer in it, the median ratio over the stages of all
   // cases.
   bool ratios = false;
-  bool other_device = false;    // compare absolute times of two devices all the same
+  bool other_device = false;  // compare absolute times of two devices all the same
+  bool cases_alone =
+      false;  // no passes: `passes` and `method_passes` stay empty, and most of the work is saved
   bool other_settings = false;  // compare cases of one name whose parameters differ all the same
 };
 

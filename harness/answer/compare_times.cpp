@@ -274,8 +274,10 @@ void compare_methods(const Report& base, const Report& now, const std::vector<Ca
 void compare_times_of(const Report& base, const Report& now, const std::vector<CasePair>& pairs,
                       const CompareOptions& options, Comparison* out) {
   const auto units = options.ratios ? units_of(pairs) : std::map<std::string, double>();
-  compare_passes(base, now, pairs, units, out);
-  leave_to_methods(out);
+  if (!options.cases_alone) {
+    compare_passes(base, now, pairs, units, out);
+    leave_to_methods(out);
+  }
   compare_methods(base, now, pairs, units, out);
 }
 

@@ -114,6 +114,20 @@ std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric)
   return estimate_of(judged_result(c, axis(metric)));
 }
 
+bool is_heavy_tailed(const CaseResult& c, const std::string& metric) {
+  return c.accuracy && metric_of(*c.accuracy, metric) && judged_result(c, axis(metric)).heavy_tailed;
+}
+
+std::vector<double> seeds_of(const CaseResult& c, const std::string& metric) {
+  return seeds_of(c, axis(metric).metric);
+}
+
+std::vector<std::string> error_names() {
+  std::vector<std::string> names;
+  for (const Named& n : kAxes) names.emplace_back(n.name);
+  return names;
+}
+
 std::string metric_title(const std::string& metric) { return axis(metric).title; }
 std::string metric_unit(const std::string& metric) { return axis(metric).unit; }
 

@@ -59,6 +59,13 @@ const MetricResult* metric_of(const Accuracy& accuracy, const std::string& metri
 // heavy-tailed, whether or not the report says that they are. Nothing where it has none.
 std::optional<Estimate> error_of(const CaseResult& c, const std::string& metric);
 
+// Whether that is the median and the range.
+bool is_heavy_tailed(const CaseResult& c, const std::string& metric);
+// The metric of each seed, in the report's order.
+std::vector<double> seeds_of(const CaseResult& c, const std::string& metric);
+
+// Errors that have a place on an axis: "smape", "rmse", ….
+std::vector<std::string> error_names();
 // "SMAPE", "RMSE", …, and the unit after a number: " %" or "".
 std::string metric_title(const std::string& metric);
 std::string metric_unit(const std::string& metric);

@@ -32,6 +32,7 @@ void add_answer_command(CLI::App& app);
 void add_analyse_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_claims_command(CLI::App& app);
+void add_dashboard_command(CLI::App& app);
 void add_compare_command(CLI::App& app, CommandResult* result);
 void add_export_command(CLI::App& app);
 void add_export_frames_command(CLI::App& app);

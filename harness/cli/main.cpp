@@ -128,6 +128,7 @@ int main(int argc, char** argv) {
   add_analyse_command(app);
   add_plot_command(app);
   add_claims_command(app);
+  add_dashboard_command(app);
   add_compare_command(app, &result);
   add_export_command(app);
   add_export_frames_command(app);

@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <half.h>
 
 #include <algorithm>
 #include <cstring>
@@ -119,6 +120,10 @@ std::string encode(const ExrLayers& layers) {
   return memory.bytes();
 }
 
+constexpr float kHalfMost = 65504;
+
+half to_half(float value) { return half(std::clamp(value, -kHalfMost, kHalfMost)); }
+
 // A subsampled channel has fewer values than the image has pixels.
 void check_sampling(const Imf::ChannelList& channels) {
   for (auto it = channels.begin(); it != channels.end(); ++it) {
@@ -220,6 +225,35 @@ void write_exr(const fs::path& path, const ExrLayers& layers) {
     throw fail(ErrorKind::output, "{}: cannot be written as EXR: {}", path.string(), one_line(e.what()));
   }
   write_text(path, bytes);
+}
+
+std::string encode_half_exr(const Image& image, const std::vector<float>& alpha) {
+  const size_t n = image.pixels.size();
+  if (n == 0) throw std::runtime_error("the image is empty");
+  if (!alpha.empty() && alpha.size() != n) throw std::logic_error("alpha is of another size");
+  // One channel after the other.
+  std::vector<half> values;
+  values.reserve(4 * n);
+  for (int c = 0; c < 3; ++c) {
+    for (const glm::vec3& p : image.pixels) values.push_back(to_half(p[c]));
+  }
+  for (const float a : alpha) values.push_back(to_half(a));
+  Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer frame;
+  for (size_t c = 0; c < values.size() / n; ++c) {
+    const std::string name(1, "RGBA"[c]);
+    header.channels().insert(name, Imf::Channel(Imf::HALF));
+    frame.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(&values[c * n]), sizeof(half),
+                                  sizeof(half) * image.width));
+  }
+  MemoryOutput memory;
+  {
+    Imf::OutputFile file(memory, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(static_cast<int>(image.height));
+  }
+  return memory.bytes();
 }
 
 ExrLayers read_exr_layers(const fs::path& path) {

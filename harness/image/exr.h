@@ -27,6 +27,11 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 void write_exr(const std::filesystem::path& path, const Image& image, const std::vector<uint8_t>& coverage);
 void write_exr(const std::filesystem::path& path, const ExrLayers& layers);
 
+// The bytes of a file with half floats, ZIP compression: for a page, of less than half the size. A value
+// beyond 65504 becomes that. With a channel A where `alpha` is not empty, one value a pixel. Throws
+// std::runtime_error for an empty image.
+std::string encode_half_exr(const Image& image, const std::vector<float>& alpha = {});
+
 // Throws Error(output), naming the file and the reason, when it is absent, truncated, damaged or not EXR.
 // read_exr needs the channels R, G and B, and leaves others alone; half and integer channels are widened to
 // float.

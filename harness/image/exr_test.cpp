@@ -80,6 +80,34 @@ TEST_F(Exr, LayersKeepTheirNames) {
   EXPECT_TRUE(same_bits(read_exr(dir_ / "layers.exr"), layers.colors.at("")));
 }
 
+// A half float has 11 significant bits: half a step is 2^-11 of the value.
+TEST_F(Exr, HalfFloatsAreTheNearest) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> exponent(-12, 15), sign(-1, 1);
+  Image image(13, 7);
+  for (auto& p : image.pixels) {
+    for (int c = 0; c < 3; ++c) p[c] = std::copysign(std::exp2(exponent(random)), sign(random));
+  }
+  image.at(0, 0) = glm::vec3(1e9f, -std::numeric_limits<float>::infinity(), 0);
+  write_text(dir_ / "half.exr", encode_half_exr(image));
+  const Image back = read_exr(dir_ / "half.exr");
+  ASSERT_EQ(back.width, 13);
+  ASSERT_EQ(back.height, 7);
+  EXPECT_EQ(back.at(0, 0), glm::vec3(65504, -65504, 0));
+  for (size_t i = 1; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const float v = image.pixels[i][c];
+      EXPECT_LE(std::abs(back.pixels[i][c] - v), std::abs(v) / 2048) << v;
+    }
+  }
+  EXPECT_THROW(encode_half_exr(Image()), std::runtime_error);
+  std::vector<float> alpha(image.pixels.size(), 1);
+  alpha[5] = 0;
+  write_text(dir_ / "covered.exr", encode_half_exr(image, alpha));
+  EXPECT_EQ(read_exr_layers(dir_ / "covered.exr").scalars.at("A"), alpha);
+  EXPECT_TRUE(same_bits(read_exr(dir_ / "covered.exr"), back));
+}
+
 TEST_F(Exr, RowsRunFromTheTop) {
   Image image(2, 2);
   image.at(1, 0) = {1, 2, 3};

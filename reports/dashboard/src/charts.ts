@@ -10,10 +10,29 @@ export function chart(label: string, make: (width: number) => Element, caption?:
   const draw = (now: number) => {
     if (now < 50 || Math.abs(now - width) < 2) return;
     width = now;
-    box.replaceChildren(make(now));
+    const plot = make(now);
+    plainMarks(plot);
+    box.replaceChildren(plot);
   };
   new ResizeObserver((entries) => draw(Math.floor(entries[0].contentRect.width))).observe(box);
   return h("figure", {}, box, caption ? h("figcaption", {}, caption) : null);
+}
+
+// Plot names its marks with aria-label, which an element without a role must not have: data-mark then.
+export function plainMarks(plot: Element): void {
+  for (const mark of plot.querySelectorAll("[aria-label]")) {
+    mark.setAttribute("data-mark", mark.getAttribute("aria-label")!);
+    mark.removeAttribute("aria-label");
+  }
+}
+
+// A plot as one picture with a name.
+export function pictureOf(plot: Element, label: string): SVGElement {
+  plainMarks(plot);
+  const picture = (plot.tagName.toLowerCase() === "svg" ? plot : plot.querySelector("svg")!) as SVGElement;
+  picture.setAttribute("role", "img");
+  picture.setAttribute("aria-label", label);
+  return picture;
 }
 
 // Options that every Plot.plot begins with.

@@ -1,4 +1,5 @@
 // Hovering over a chart's points, and moving among them with keys: a tip tells of the nearest.
+import { pictureOf } from "./charts";
 import { h } from "./dom";
 
 export interface Spot {
@@ -54,9 +55,7 @@ export function readableChart(label: string, make: (width: number) => { plot: El
     if (now < 50 || Math.abs(now - width) < 2) return;
     width = now;
     const { plot, spots, tell, active } = make(width);
-    const picture = plot.tagName.toLowerCase() === "svg" ? plot : plot.querySelector("svg")!;
-    picture.setAttribute("role", "img");
-    picture.setAttribute("aria-label", label);
+    pictureOf(plot, label);
     box.replaceChildren(plot);
     readSpots(box, width, spots, tell, active);
   }).observe(box);

@@ -1,6 +1,7 @@
 // The ledger of claims against papers.json of `vsglbench reproduce`.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, test } from "node:test";
 import { close, open } from "./harness.mjs";
 import { made } from "./made.mjs";
@@ -8,7 +9,7 @@ import { assertSound } from "./sound.mjs";
 
 after(close);
 
-const papers = JSON.parse(readFileSync(new URL("../../papers/lavapipe/papers.json", import.meta.url)));
+const papers = JSON.parse(readFileSync(join(process.env.VSGLBENCH_DASHBOARD_PAGES, "front/papers.json")));
 const trials = papers.exhibits.flatMap((e) => e.trials ?? []);
 const shown = (ruling) => (ruling === "in part" ? "holds in part" : ruling);
 

@@ -1,11 +1,10 @@
 // Opens pages in headless Chromium and notes what they must not do. Pages lie in the folder of
-// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it as NAME.json, else in reports/.
+// VSGLBENCH_DASHBOARD_PAGES, NAME.html; the report that one was made of beside it, NAME/report.json (make_pages.mjs).
 import { existsSync, readFileSync } from "node:fs";
-import { join, dirname } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const here = dirname(fileURLToPath(import.meta.url));
 const pages = process.env.VSGLBENCH_DASHBOARD_PAGES;
 if (!pages) throw new Error("VSGLBENCH_DASHBOARD_PAGES: not set; the folder of the pages under test");
 
@@ -32,13 +31,42 @@ export async function open(name, { hash = "", dark = false, width = 1280, height
   return page;
 }
 
+// The report.json that a page was made of.
 export function report(name) {
-  const beside = pages && join(pages, `${name}.json`);
-  const file = existsSync(beside) ? beside : join(here, "../..", `${name}-lavapipe`, "report.json");
-  return JSON.parse(readFileSync(file, "utf8"));
+  return JSON.parse(readFileSync(join(pages, name, "report.json"), "utf8"));
+}
+
+export function has(name) {
+  return existsSync(join(pages, `${name}.html`));
 }
 
 export async function close() {
   await browser?.close();
   browser = undefined;
+}
+
+// Numbers of a text as the page writes them: "1.02 (−0.5 to 3e−5)".
+export function numbers(text) {
+  return (text.match(/[+\-−]?\d+(\.\d+)?(e[\-−]?\d+)?/g) ?? []).map((n) => Number(n.replaceAll("−", "-")));
+}
+
+// Whether a figure of three digits is this number.
+export function isFigure(shown, exact) {
+  return Math.abs(shown - exact) <= 0.0051 * Math.abs(exact) + 1e-12;
+}
+
+// The rows of a table by its caption, as objects by the titles of its columns.
+export async function rowsOf(page, caption) {
+  return page.$$eval("section.table", (sections, wanted) => {
+    const section = sections.find((s) => s.querySelector("h3").textContent === wanted);
+    if (!section) return null;
+    const titles = [...section.querySelectorAll("thead button")].map((b) => b.textContent);
+    return [...section.querySelectorAll("tbody tr")].map((tr) => Object.fromEntries([...tr.children].map((cell, i) => [titles[i], cell.textContent])));
+  }, caption);
+}
+
+// The bytes of what a click saves.
+export async function downloaded(page, click) {
+  const [download] = await Promise.all([page.waitForEvent("download"), click()]);
+  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
 }

@@ -3,11 +3,12 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { transformSync } from "esbuild";
+import { report as reportOf } from "./harness.mjs";
 
 const source = readFileSync(new URL("../src/pareto.ts", import.meta.url), "utf8");
 const { code } = transformSync(source, { loader: "ts", format: "esm" });
 const { pointsOf, place, frontOf, student95 } = await import("data:text/javascript," + encodeURIComponent(code));
-const report = JSON.parse(readFileSync(new URL("../../front-lavapipe/report.json", import.meta.url), "utf8"));
+const report = reportOf("front");
 
 // The report's cases of one group as the page's columns, rounded as it rounds.
 function columns(group) {

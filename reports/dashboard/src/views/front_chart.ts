@@ -1,7 +1,7 @@
 // The scatter of the front view: log-log, steps of the front, and over it what is hovered and selected.
 import * as Plot from "@observablehq/plot";
 import { selectedCases } from "../choice";
-import { logAxisX, logAxisY, logDomain, logScale, plotDefaults } from "../charts";
+import { logAxisX, logAxisY, logDomain, logScale, pictureOf, plotDefaults } from "../charts";
 import { lookOf } from "../colours";
 import { h, svg } from "../dom";
 import { figure, withUnit } from "../format";
@@ -55,7 +55,7 @@ function steps(front: Placed[], top: number, right: number): [number, number][] 
   return [[points[0][0], top], ...points, [right, points[points.length - 1][1]]];
 }
 
-function plot(data: FrontData, width: number, height: number, box: Box): Drawn {
+function plot(data: FrontData, label: string, width: number, height: number, box: Box): Drawn {
   const { report, digest } = data.page;
   const method = (p: Placed) => report.methods[report.cases.method[p.point.case]];
   const zero = box.y0 * (box.y1 / box.y0) ** 0.02; // an error of 0 just above the edge, where its mark is seen
@@ -91,10 +91,9 @@ function plot(data: FrontData, width: number, height: number, box: Box): Drawn {
     color: { type: "identity" },
     marks,
   });
-  const root = (element.tagName.toLowerCase() === "svg" ? element : element.querySelector("svg")!) as SVGElement;
   const sx = element.scale("x")!, sy = element.scale("y")!;
   const [fx0, fx1] = sx.range as number[], [fy1, fy0] = sy.range as number[];
-  return { svg: root, x: sx.apply, y: (v) => sy.apply(v > 0 ? v : zero), unx: sx.invert!, uny: sy.invert!, frame: { x0: fx0, x1: fx1, y0: fy0, y1: fy1 }, least: box.y0 };
+  return { svg: pictureOf(element, label), x: sx.apply, y: (v) => sy.apply(v > 0 ? v : zero), unx: sx.invert!, uny: sy.invert!, frame: { x0: fx0, x1: fx1, y0: fy0, y1: fy1 }, least: box.y0 };
 }
 
 // Each front point's number below it on the left, where the front has no neighbours; one that would cover another is left out.
@@ -144,9 +143,7 @@ export function frontChart(data: FrontData, reader: Reader): FrontChart {
   function draw(): void {
     if (width < 50) return;
     const height = Math.round(Math.min(560, Math.max(340, width * 0.62)));
-    drawn = plot(data, width, height, zoomOf(data) ?? whole);
-    drawn.svg.setAttribute("role", "img");
-    drawn.svg.setAttribute("aria-label", label);
+    drawn = plot(data, label, width, height, zoomOf(data) ?? whole);
     drawn.svg.append(numbers(data, drawn), over);
     box.replaceChildren(drawn.svg, tip);
     reset.disabled = zoomOf(data) === null;

@@ -51,7 +51,7 @@ function bars(page: Page, cases: number[], shares: boolean, width: number): Elem
     color: { type: "identity" },
     marks: [
       Plot.barX(all, { y: "row", x1: "from", x2: "to", fill: (d: Piece) => colours[d.pass], insetTop: 17, insetBottom: 3, insetLeft: 0.5, insetRight: 0.5, title: (d: Piece) => `${report.passes[d.pass]}: ${withUnit(d.ms, " ms")}` }),
-      Plot.text(rows, { y: (r: number) => r, x: 0, text: (r: number) => `${report.cases.label[cases[r]]}  ${withUnit(sumOf(page, cases[r]), " ms")}`, textAnchor: "start", dy: -10, fill: "currentColor", stroke: "var(--page)", strokeWidth: 3 }),
+      Plot.text(rows, { y: (r: number) => r, x: 0, text: (r: number) => `${withUnit(sumOf(page, cases[r]), " ms")}  ${report.cases.label[cases[r]]}`, textAnchor: "start", dy: -10, lineWidth: (width - 30) / 12, textOverflow: "ellipsis-end", fill: "currentColor", stroke: "var(--page)", strokeWidth: 3 }),
     ],
   });
 }
