@@ -14,7 +14,7 @@ import "./marks.css";
 
 type Apply = (changes: Record<string, string | number>) => void;
 
-function controls(history: History, c: HistoryChoice, set: Apply): HTMLElement {
+function controls(history: History, c: HistoryChoice, words: HTMLElement, set: Apply): HTMLElement {
   const scenes = [...new Set(history.series.map((s) => s.scene))];
   const last = history.reports.length - 1;
   const zoomed = c.from > 0 || c.to < last;
@@ -23,7 +23,7 @@ function controls(history: History, c: HistoryChoice, set: Apply): HTMLElement {
     choice("Figures", "hi-b", [["first", "relative to the first"], ["median", "relative to the median"], ["absolute", "absolute"]], c.base, (v) => set({ "hi.b": v })),
     choice("Lines", "hi-l", [["mean", "mean of each method"], ["each", "every series"]], c.means ? "mean" : "each", (v) => set({ "hi.l": v })),
     choice("Scene", "hi-scene", [["", scenes.length > 1 ? `all ${scenes.length}` : "all"], ...scenes.map((s): [string, string] => [s, s])], c.scene, (v) => set({ "hi.scene": v })),
-    filterBox("Series", "hi-q", c.text, (v) => set({ "hi.q": v })),
+    words,
     checkbox("Logarithmic", "hi-log", c.log, (on) => set({ "hi.log": on ? 1 : "" })),
     zoomed ? h("button", { type: "button", click: () => set({ "hi.from": "", "hi.to": "" }) }, `All ${last + 1} reports`) : null);
 }
@@ -38,16 +38,18 @@ function panelsOf(page: Page, history: History, c: HistoryChoice, set: Apply): {
   };
   const lines = linesOf(history, c.indices, c.column.name, c.base, c.means);
   const scenes = [...new Set(lines.map((l) => l.scene))];
+  // A click on a mean shows the series that it is made of.
+  const wordsFor = (line: Line) => (line.series.every((i) => history.series[i].id.includes(`/${line.method}/`)) ? `/${line.method}/` : line.method);
   const pick = (line: Line, report: number) =>
-    line.series.length === 1 ? set({ "hi.s": line.series[0], "hi.r": report }) : set({ "hi.l": "each", "hi.q": line.method, "hi.scene": line.scene });
+    line.series.length === 1 ? set({ "hi.s": line.series[0], "hi.r": report }) : set({ "hi.l": "each", "hi.q": wordsFor(line), "hi.scene": line.scene });
   const charts = scenes.map((scene) => {
     const mine = lines.filter((l) => l.scene === scene);
-    return historyPanel({ ...shared, lines: mine, title: `${scene}: ${c.column.title}, ${mine.length} ${c.means ? "methods" : "series"}`,
+    return historyPanel({ ...shared, id: scene, lines: mine, title: `${scene}: ${c.column.title}, ${mine.length} ${c.means ? "methods" : "series"}`,
                           changes: changesIn(history, c.column.name, mine.flatMap((l) => l.series)),
                           height: scenes.length > 1 ? 280 : 400, marked: !c.means && mine.length <= 12, marker: -1, pick });
   });
   const line = c.opened < 0 ? null : seriesLine(history, c.opened, c.column.name, c.base);
-  const opened = line && historyPanel({ ...shared, lines: [line], title: `${line.scene} · ${line.label}: ${c.column.title}`, height: 300, marked: false, marker: c.report,
+  const opened = line && historyPanel({ ...shared, id: "opened-chart", lines: [line], title: `${line.scene} · ${line.label}: ${c.column.title}`, height: 300, marked: false, marker: c.report,
                                         changes: changesIn(history, c.column.name, [c.opened]), pick: (l, report) => set({ "hi.r": report, "hi.s": l.series[0] }) });
   return { charts, opened, lines };
 }
@@ -107,14 +109,18 @@ export const historyView: View = {
     const head = h("div"), body = h("div");
     const fill = () => {
       const c = historyChoice(page, history), focused = document.activeElement?.id;
-      head.replaceChildren(controls(history, c, set));
-      if (focused) document.getElementById(focused)?.focus();
+      const input = words.querySelector("input")!;
+      if (focused !== input.id) input.value = c.text;
+      head.replaceChildren(controls(history, c, words, set));
       body.replaceChildren(...content(page, history, c, set));
+      if (focused) document.getElementById(focused)?.focus();
     };
     const set: Apply = (changes) => {
       page.state.set(changes, true);
       fill();
     };
+    // Stays the same element, so that the caret stays in its place.
+    const words = filterBox("Series", "hi-q", page.state.get("hi.q"), (v) => set({ "hi.q": v }));
     root.append(head, body);
     fill();
   },

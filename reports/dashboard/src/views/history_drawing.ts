@@ -13,6 +13,7 @@ export interface PanelOptions {
   lines: Line[];
   changes: Change[]; // of these lines' series and the column
   title: string;
+  id: string; // tells the page's charts apart
   height: number;
   from: number; // first and last report shown
   to: number;

@@ -26,8 +26,8 @@ export function historyPanel(options: PanelOptions): Panel {
   const canvas = h("canvas");
   const image = svg("svg", { role: "img", "aria-label": `${options.title}: ${options.lines.length} lines over ${options.to - options.from + 1} reports` });
   const tip = h("div", { class: "history-tip", hidden: true });
-  const frame = h("div", { class: "history-frame", tabindex: 0, role: "group", "aria-roledescription": "chart",
-                              "aria-label": `${options.title}. Left and right go from report to report, up and down from line to line, Enter opens a line` }, canvas, image, tip);
+  const frame = h("div", { class: "history-frame", id: `hi-frame-${options.id}`, tabindex: 0, role: "group", "aria-roledescription": "chart",
+                              "aria-label": `${options.title}. Left and right go from report to report, up and down from line to line, plus and minus zoom, Enter opens a line` }, canvas, image, tip);
   frame.style.height = `${options.height}px`;
   const live = h("p", { class: "visually-hidden", "aria-live": "polite" });
   const element = h("section", { class: "history-panel" }, h("h3", {}, options.title), frame, live);
@@ -105,6 +105,10 @@ export function historyPanel(options: PanelOptions): Panel {
     if (!here) return;
     if (e.key === "Enter") return options.pick(here.line, here.report);
     if (e.key === "Escape") return rest();
+    if (e.key === "+" || e.key === "-") {
+      const half = Math.max(1, Math.round((options.to - options.from) * (e.key === "+" ? 0.25 : 1)));
+      return options.zoom(Math.max(0, here.report - half), Math.min(options.history.reports.length - 1, here.report + half));
+    }
     const by = { ArrowLeft: -1, ArrowRight: 1 }[e.key] ?? 0, up = { ArrowUp: 1, ArrowDown: -1 }[e.key] ?? 0;
     if (by === 0 && up === 0) return;
     e.preventDefault();
