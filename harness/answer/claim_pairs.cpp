@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "report/noise.h"
+#include "answer/claim_values.h"
 
 namespace vsglbench {
 namespace {
@@ -47,78 +47,6 @@ bool has_what_differs(const CaseResult& c, const PaperClaim& claim) {
 
 // --- what a pair shows ---
 
-// Of how the seed's lights lie on the RSM; nothing where the method does not say.
-template <class Part>
-std::optional<double> part_value(const std::optional<Part>& part, double Part::*value) {
-  return part ? std::optional((*part).*value) : std::nullopt;
-}
-
-constexpr std::string_view kTime = "time:", kPassTime = "time:pass:";
-
-std::optional<double> region_value(const RegionErrors& region, const std::string& metric) {
-  if (metric == "region.rmse") return region.rmse;
-  if (metric == "region.smape") return region.smape;
-  if (metric == "region.detail") return region.detail;
-  throw std::logic_error("no metric " + metric);
-}
-
-// Many images have no spike, and a share of 0 no logarithm: half a pixel more on both sides, which moves
-// counts of one or two towards each other and larger ones hardly.
-std::optional<double> spikes_of(const SeedResult& s) {
-  if (!s.spikes || s.errors.pixels == 0) return std::nullopt;
-  return *s.spikes + 0.5 / static_cast<double>(s.errors.pixels);
-}
-
-std::optional<double> seed_value(const SeedResult& s, const std::string& metric) {
-  if (metric == "overlap") return part_value(s.coverage, &Coverage::overlap);
-  if (metric == "gap") return part_value(s.coverage, &Coverage::gap);
-  if (metric == "pdf_overlap") return s.coverage ? s.coverage->pdf_overlap : std::nullopt;
-  if (metric == "pdf_gap") return s.coverage ? s.coverage->pdf_gap : std::nullopt;
-  if (metric == "kernel_largest") return part_value(s.kernels, &KernelStats::largest);
-  if (metric == "kernel_over") return part_value(s.kernels, &KernelStats::over);
-  if (metric == "flip_p99") return s.errors.flip_p99;
-  if (metric == "p99_9") return s.errors.p99_9;
-  if (metric == "detail") return s.detail;
-  if (metric == "spikes") return spikes_of(s);
-  if (metric == "cancellation_rate") return s.cancellation_rate;
-  if (metric.starts_with("region.")) return s.region ? region_value(*s.region, metric) : std::nullopt;
-  for (const Metric m : kMetrics) {
-    if (formula(m).name == metric) return s.errors.value(m);
-  }
-  throw std::logic_error("no metric " + metric);
-}
-
-// By seed. Of the static flicker, which is one number for all seeds, how far each seed's image is from those
-// of the others.
-std::vector<double> temporal_values(const Temporal& t, const std::string& metric) {
-  if (metric == "temporal.derivative") return t.derivative.values;
-  if (metric == "temporal.static") return t.still ? t.still->series : std::vector<double>{};
-  if (metric != "temporal.detail") throw std::logic_error("no metric " + metric);
-  // Where one seed has no detail left there is no ratio, and those that have some would tell but half.
-  if (!t.detail || std::ranges::any_of(t.detail->values, [](double v) { return v <= 0; })) return {};
-  return t.detail->values;
-}
-
-std::map<uint64_t, double> logs_of(const CaseResult& c, const std::string& metric) {
-  std::map<uint64_t, double> out;
-  if (is_temporal(metric)) {
-    const auto values = c.temporal ? temporal_values(*c.temporal, metric) : std::vector<double>{};
-    for (uint64_t seed = 0; seed < values.size(); ++seed) {
-      if (values[seed] > 0) out[seed] = std::log(values[seed]);
-    }
-    if (metric == "temporal.static" && out.size() < 3) out.clear();
-    return out;
-  }
-  // Most light sets have no such kernel at all: half a light more on both sides, as with spikes.
-  const bool of_lights = metric == "kernel_over" && c.generate && c.generate->lights > 0;
-  const double half_light = of_lights ? 0.5 / static_cast<double>(c.generate->lights) : 0;
-  for (const SeedResult& s : c.seeds) {
-    const auto value = seed_value(s, metric);
-    if (value && *value + half_light > 0) out[s.seed] = std::log(*value + half_light);
-  }
-  return out;
-}
-
 ClaimCase trial_of(const CaseResult& c, const PaperClaim& claim, const std::string& metric) {
   ClaimCase t{&c, {}, {}, metric == "temporal.static"};
   if (is_time(metric) || claim.equal_time) {
@@ -138,16 +66,6 @@ std::optional<PairRatio> ratio_of_errors(const ClaimCase& a, const std::map<uint
   const auto mean = mean_of_seeds(logs, a.of_pairs);
   if (!mean) return std::nullopt;
   return PairRatio{std::move(logs), *mean, a.of_pairs};
-}
-
-// Of counts: none at all in any seed.
-bool has_none(const CaseResult& c, const std::string& metric) {
-  if (metric == "spikes")
-    return std::ranges::all_of(c.seeds, [](const SeedResult& s) { return s.spikes && *s.spikes == 0; });
-  if (metric == "kernel_over")
-    return std::ranges::all_of(c.seeds,
-                               [](const SeedResult& s) { return s.kernels && s.kernels->over == 0; });
-  return false;
 }
 
 // Nothing beside nothing is no ratio.
@@ -294,28 +212,6 @@ std::vector<const ClaimCase*> step_below(const std::string& key, const CaseResul
 }
 
 }  // namespace
-
-bool is_time(const std::string& metric) { return metric.starts_with(kTime); }
-
-std::optional<std::string> pass_glob(const std::string& metric) {
-  return metric.starts_with(kPassTime) ? std::optional(metric.substr(kPassTime.size())) : std::nullopt;
-}
-
-std::optional<Summary> claimed_time(const CaseResult& c, const std::string& metric) {
-  if (const auto glob = pass_glob(metric)) return time_of_passes(c, *glob);
-  return time_of(c, is_time(metric) ? metric.substr(kTime.size()) : "method");
-}
-
-double claimed_noise(const Report& report, const std::string& scene, const std::string& metric) {
-  const auto glob = pass_glob(metric);
-  const std::string column = glob              ? column_of_passes(report, scene, *glob)
-                             : is_time(metric) ? metric.substr(kTime.size())
-                                               : "method";
-  const TimeNoise* known = noise_of(report, scene, column);
-  return known ? known->noise_floor : 0;
-}
-
-bool is_temporal(const std::string& metric) { return metric.starts_with("temporal."); }
 
 std::optional<Estimate> mean_of_seeds(const std::map<uint64_t, double>& logs, bool of_pairs) {
   if (logs.size() < (of_pairs ? 3 : 2)) return std::nullopt;

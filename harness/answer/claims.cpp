@@ -6,6 +6,7 @@
 #include <set>
 
 #include "answer/claim_pairs.h"
+#include "answer/claim_values.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "report/case_names.h"
@@ -87,6 +88,9 @@ std::string what_is_missing(const Sides& sides, const PaperClaim& claim, const s
                        : may_be_0(metric)            ? " above 0 for two seeds"
                                                      : " for two seeds");
   }
+  const auto none = [&](const ClaimCase& t) { return has_none(*t.result, metric); };
+  if (std::ranges::all_of(sides.a, none) && std::ranges::all_of(sides.b, none))
+    return metric + " is 0 in every seed of both sides";
   if (!claim.step.empty()) return "no two cases alike in all but " + claim.step;
   return claim.equal_time ? "no two cases alike in all else whose times meet"
                           : "no two cases alike in all else";

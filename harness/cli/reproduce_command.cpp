@@ -12,6 +12,8 @@
 #include "cli/command.h"
 #include "figure/gnuplot.h"
 #include "image/png.h"
+#include "papers/flips.h"
+#include "papers/page.h"
 #include "papers/reproduce.h"
 #include "papers/sheet.h"
 #include "run/config.h"
@@ -160,6 +162,23 @@ void check_names(const std::vector<Exhibit>& exhibits, const std::vector<PaperCl
   }
 }
 
+// A folder or file that is named by nothing is a slip, such as that of a variable that is not set.
+void refuse_empty_paths(const CLI::App& command) {
+  for (const char* name : {"--out", "--page", "--against", "--exhibits", "--claims"}) {
+    const CLI::Option* option = command.get_option(name);
+    if (option->count() > 0 && option->as<std::string>().empty())
+      throw fail(ErrorKind::usage, "{}: is empty; give a path, or leave the option out", name);
+  }
+}
+
+// What the command that makes it again needs beside name and scale: lists of the user's own.
+std::string own_lists(const ReproduceCommand& command) {
+  std::string out;
+  if (!command.exhibits.empty()) out += " --exhibits " + command.exhibits.string();
+  if (!command.claims.empty()) out += " --claims " + command.claims.string();
+  return out;
+}
+
 void on_interrupt(int signal) {
   kill_children();
   std::signal(signal, SIG_DFL);
@@ -189,7 +208,8 @@ void reproduce(ReproduceCommand command, CommandResult* result) {
   Page page(command, all);
   bool whole = true;
   for (const Exhibit& exhibit : wanted) {
-    const Json made = reproduce_exhibit(exhibit, claims, &work, command.scale, command.out);
+    Json made = reproduce_exhibit(exhibit, claims, &work, command.scale, command.out);
+    made["command"] = made["command"].get<std::string>() + own_lists(command);
     whole = whole && made.at("problems").empty();
     print_trials(made);
     page.add(made);
@@ -210,8 +230,9 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
       "reproduce", "tables and figures of the papers made anew, beside what is published, on one page");
   command->footer(
       "Each is measured in a folder of its own below --out and goes on where it was interrupted; what is "
-      "finished\nstands as long as config, programme and device are the same, and what failed or lacked its "
-      "scene is tried again.\nThe page, README.md and papers.json with thumbnails, goes to "
+      "finished\nstands as long as config, programme and device are the same, and what failed, lacked its "
+      "scene or lost its pictures is tried again.\nThe page, README.md and papers.json with thumbnails, goes "
+      "to "
       "reports/papers/DEVICE; exhibits that were not asked for\nkeep their place on it.\n"
       "Scales: quick takes a fraction of the sizes, paper the configs as they are: the published sizes, but "
       "for "
@@ -239,14 +260,16 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
   command->add_option("--device", options->work.device,
                       "Vulkan device: index, UUID, PCI address or part of its name");
   command->add_flag("--force", options->work.force, "measure anew what is finished");
-  command->add_flag("--as-is", options->work.as_is,
-                    "take what is finished in --out, whatever programme made it: the page says which");
+  command->add_flag(
+      "--as-is", options->work.as_is,
+      "take what is finished in --out of these configs, whatever programme made it: the page says which");
   command->add_option("--exhibits", options->exhibits,
                       "a list of your own (default: harness/papers/exhibits.json)");
   command->add_option("--claims", options->claims,
                       "claims of your own (default: harness/answer/claims.json)");
   command->callback([=] {
     options->work.argv = argv;
+    refuse_empty_paths(*command);
     reproduce(*options, result);
   });
 }

@@ -66,6 +66,9 @@ TEST_F(ReproduceCommand, MakesAPageAndChecksAgainstIt) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "page" / "one.png"));
   ASSERT_EQ(papers()["exhibits"].size(), 2u);
   EXPECT_EQ(papers()["exhibits"][0]["scale"], "quick");
+  EXPECT_EQ(papers()["exhibits"][0]["command"], "vsglbench reproduce one --scale quick --exhibits " +
+                                                    (folder_ / "exhibits.json").string() + " --claims " +
+                                                    (folder_ / "claims.json").string());
 
   // One alone: the other keeps its place. What is finished is not measured again.
   ASSERT_EQ(reproduce({"two"}).code, 0);
@@ -86,6 +89,8 @@ TEST_F(ReproduceCommand, MakesAPageAndChecksAgainstIt) {
 
 TEST_F(ReproduceCommand, RefusesWhatItCannotMake) {
   expect_refused(reproduce({"three"}), 2, "no table or figure 'three'");
+  for (const std::string option : {"--out", "--page", "--against", "--exhibits", "--claims"})
+    expect_refused(run({"reproduce", "three", option, ""}), 2, option + ": is empty; give a path");
   expect_refused(reproduce({"--scale", "huge"}), 2, "--scale");
   write("damaged.json", "{\"schema\": \"vsglbench.papers/1\", \"exhibits\": [{}]}");
   expect_refused(reproduce({"one", "--check", "--against", (folder_ / "absent.json").string()}), 2,

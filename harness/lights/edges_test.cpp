@@ -14,18 +14,6 @@ namespace {
 
 using glm::dvec3;
 
-gpu::Emitter lamp(uint32_t width, uint32_t height) {
-  return {.position = {0.3f, 4, 0.2f},
-          .perspective = 1,
-          .forward = {0, -1, 0},
-          .width = width,
-          .right = {1, 0, 0},
-          .height = height,
-          .up = {0, 0, -1},
-          .footprint_cosine = 0.1f,
-          .extent = {0.7f, 0.5f}};
-}
-
 // From the emitter through a place on its plane, in texels from the upper left corner.
 dvec3 direction(const gpu::Emitter& e, double x, double y) {
   return dvec3(e.forward) + (2 * x / e.width - 1) * e.extent.x * dvec3(e.right) +
@@ -60,7 +48,7 @@ const Plane kSlope{glm::normalize(dvec3(0.7, 1, -0.4)), {0, 0.5, 0}};
 // On planes, from the rays through a texel's corners: half the cross product of its diagonals.
 // What is left is how the plane recedes within a texel.
 TEST(Edges, ATexelsSizeIsTheSideOfItsSquareOnTheSurface) {
-  gpu::Emitter e = lamp(40, 24);
+  gpu::Emitter e = spot(40, 24);
   for (const uint32_t perspective : {1u, 0u}) {
     e.perspective = perspective;
     for (const Plane& plane : {kFloor, kSlope}) {
@@ -88,7 +76,7 @@ TEST(Edges, ATexelsSizeIsTheSideOfItsSquareOnTheSurface) {
 }
 
 TEST(Edges, APlaneHasNone) {
-  const gpu::Emitter e = lamp(61, 35);
+  const gpu::Emitter e = spot(61, 35);
   for (const Plane& plane : {kFloor, kSlope}) {
     const TexelSurfaces half = seen(e, [&](auto, auto) { return plane; });
     for (const FootprintEdges& f : footprint_edges(half, {{30.5f, 17.5f, 200, 0}, {3.5f, 33.5f, 5, 0}})) {
@@ -101,7 +89,7 @@ TEST(Edges, APlaneHasNone) {
 // A texel of the floor is 1.4 · 4 m/64 = 87.5 mm wide and 4 m/64 = 62.5 mm high: as large as a square of 74
 // mm.
 TEST(Edges, AStepOfMoreThanTwoTexelsIsOne) {
-  const gpu::Emitter e = lamp(64, 64);
+  const gpu::Emitter e = spot(64, 64);
   const auto with_step = [&](double height) {
     return seen(e, [&](uint32_t x, uint32_t) { return x < 32 ? kFloor : Plane{{0, 1, 0}, {0, height, 0}}; });
   };
@@ -118,7 +106,7 @@ TEST(Edges, AStepOfMoreThanTwoTexelsIsOne) {
 
 // The roof of a box: two planes that meet have an edge where they are more than 60° apart.
 TEST(Edges, WherePlanesMeetTheAngleTells) {
-  const gpu::Emitter e = lamp(64, 64);
+  const gpu::Emitter e = spot(64, 64);
   const auto ridge = [&](double degrees) {
     const double half_angle = degrees / 2 / 180 * std::numbers::pi;
     const dvec3 through(e.position.x, 1, 0);
@@ -134,7 +122,7 @@ TEST(Edges, WherePlanesMeetTheAngleTells) {
 
 // Of single texels, of a hole, and of nothing.
 TEST(Edges, AHolesRimIsOneAndNothingHasNone) {
-  const gpu::Emitter e = lamp(8, 8);
+  const gpu::Emitter e = spot(8, 8);
   TexelSurfaces half = seen(e, [&](auto, auto) { return kFloor; });
   for (const size_t hole : {size_t(2 * 8 + 2), size_t(2 * 8 + 3)}) {
     half.positions[hole] = glm::vec4(0);

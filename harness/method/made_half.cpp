@@ -10,20 +10,6 @@
 namespace vsglbench {
 namespace {
 
-gpu::Emitter spot(uint32_t width, uint32_t height) {
-  return {.position = {0.3f, 4, 0.2f},
-          .perspective = 1,
-          .forward = {0, -1, 0},
-          .width = width,
-          .right = {1, 0, 0},
-          .height = height,
-          .up = {0, 0, -1},
-          .footprint_cosine = 0.1f,
-          .extent = {0.7f, 0.5f},
-          .power = {10, 8, 6},
-          .importance = 0};
-}
-
 // The point at `depth` behind the centre of texel (x, y).
 glm::vec3 behind_texel(const gpu::Emitter& e, uint32_t x, uint32_t y, float depth) {
   const float right = (2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(e.width) - 1) * e.extent.x;
@@ -49,6 +35,20 @@ void set_honest_pdf(oracle::Half& half) {
 }
 
 }  // namespace
+
+gpu::Emitter spot(uint32_t width, uint32_t height) {
+  return {.position = {0.3f, 4, 0.2f},
+          .perspective = 1,
+          .forward = {0, -1, 0},
+          .width = width,
+          .right = {1, 0, 0},
+          .height = height,
+          .up = {0, 0, -1},
+          .footprint_cosine = 0.1f,
+          .extent = {0.7f, 0.5f},
+          .power = {10, 8, 6},
+          .importance = 0};
+}
 
 oracle::Half random_half(uint32_t width, uint32_t height, uint32_t seed) {
   std::mt19937 random(seed);

@@ -9,6 +9,9 @@
 
 namespace vsglbench {
 
+// A spot 4 m above the floor that looks down on it: the emitter of every half below.
+gpu::Emitter spot(uint32_t width, uint32_t height);
+
 // A spot over a wavy floor with random materials, 5 % of the texels without a surface; `seed` decides
 // materials, heights and the PDF.
 oracle::Half random_half(uint32_t width, uint32_t height, uint32_t seed);

@@ -56,7 +56,12 @@ struct Exhibit {
   std::vector<SheetPart> sheet;
 };
 
-// Throws Error(config) "FILE:LINE: ...". Without a path: the list that comes with the programme.
+// Where what is made of a config lies, below the folder of all: its name without ".json", for it may be a
+// path, and what is made: "", or "-lights".
+std::string folder_of(const std::string& config, const std::string& of);
+
+// Throws Error(config) "FILE:LINE: ..."; also for a sheet of what the exhibit does not make, and two configs
+// that would share a folder. Without a path: the list that comes with the programme.
 std::vector<Exhibit> load_exhibits(const std::filesystem::path& file = {});
 
 // Those of these names, or all for none or "all". Throws Error(usage) that names the nearest.

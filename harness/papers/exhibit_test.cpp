@@ -2,6 +2,7 @@
 #include "papers/exhibit.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <set>
 #include <sstream>
@@ -160,6 +161,50 @@ TEST(Exhibits, CoverTheTexts) {
         "mfis16-fig6", "mfis16-fig7", "mfis16-fig8", "vsgl14-tab1", "vsgl14-fig1", "vsgl14-fig2",
         "vsgl14-fig3", "vsgl14-fig4", "vsgl14-fig6", "sgl22-fig1", "sgl22-fig2", "sgl22-fig3", "sgl22-fig4"})
     EXPECT_TRUE(names.contains(name)) << name;
+}
+
+// What `load_exhibits` says of an exhibit with these parts; "" where it takes it.
+std::string refusal(const std::string& parts) {
+  const fs::path path = fs::temp_directory_path() / fmt::format("exhibit_test_{}.json", ::getpid());
+  write_text(path,
+             "{\"exhibits\": [{\"name\": \"x\", \"source\": \"s\", \"title\": \"t\",\n" + parts + "}]}");
+  std::string out;
+  try {
+    load_exhibits(path);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::config);
+    out = e.what();
+  }
+  fs::remove(path);
+  return out;
+}
+
+void expect_refusal(const std::string& parts, const std::string& why) {
+  const std::string said = refusal(parts);
+  EXPECT_NE(said.find(why), std::string::npos) << "'" << said << "' of " << parts;
+  EXPECT_NE(said.find(":2: "), std::string::npos) << said;
+}
+
+TEST(Exhibits, ASheetOfWhatIsNotMadeIsRefusedByItsLine) {
+  const std::string made = R"("runs": ["mfis16-fig5"], "lights": ["mfis16-fig1"], )";
+  const auto sheet = [&](const std::string& part) { return made + "\"sheet\": [" + part + "]"; };
+  EXPECT_EQ(refusal(sheet(R"({"run": "mfis16-fig5", "images": ["indirect"]})")), "");
+  EXPECT_EQ(refusal(sheet(R"({"run": "mfis16-fig1-lights", "files": ["*"]})")), "");
+  expect_refusal(sheet(R"({"run": "mfis16-fig55", "images": ["indirect"]})"),
+                 "'x' makes no 'mfis16-fig55'; did you mean 'mfis16-fig5'?");
+  expect_refusal(sheet(R"({"run": "mfis16-fig5", "images": ["indirekt"]})"), "indirekt");
+  expect_refusal(sheet(R"({"run": "mfis16-fig1-lights", "images": ["indirect"]})"), "give files");
+  expect_refusal(sheet(R"({"run": "mfis16-fig5"})"), "shows nothing");
+  expect_refusal(R"("lights": ["mfis16-fig1"], "largest_kernel": true)", "name one in runs");
+}
+
+TEST(Exhibits, ConfigsThatWouldShareAFolderAreRefused) {
+  EXPECT_EQ(refusal(R"("runs": ["a/tiny.json"], "lights": ["a/tiny.json"])"), "");
+  EXPECT_EQ(refusal(R"("runs": ["a/tiny.json", "a/../a/tiny.json"])"), "");
+  expect_refusal(R"("runs": ["a/tiny.json", "b/tiny.json"])", "'b/tiny.json' would share the folder 'tiny'");
+  expect_refusal(R"("runs": ["a/tiny-lights.json"], "lights": ["a/tiny.json"])", "the folder 'tiny-lights'");
+  expect_refusal(R"("runs": ["a/tiny.json"], "figure": "b/tiny.json")", "the folder 'tiny'");
+  expect_refusal(R"("runs": ["a/code-size.json"])", "the sizes of code");
 }
 
 TEST(Exhibits, AMisspeltNameIsMetWithTheNearest) {

@@ -1,11 +1,11 @@
-// The page of the reproduced tables and figures.
+#include "papers/page.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
 
 #include "base/printable.h"
 #include "papers/measured_table.h"
-#include "papers/reproduce.h"
 
 namespace vsglbench {
 namespace {
@@ -205,6 +205,40 @@ std::string exhibit_text(const Json& e) {
 }
 
 }  // namespace
+
+std::vector<ClaimTrial> trials_in(const Json& papers) {
+  std::vector<ClaimTrial> out;
+  for (const Json& exhibit : papers.at("exhibits")) {
+    for (const Json& trial : exhibit.at("trials")) out.push_back(trial_from_json(trial));
+  }
+  return out;
+}
+
+Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& all) {
+  const auto exhibits_of = [](const Json& papers) { return papers.value("exhibits", Json::array()); };
+  const Json old = exhibits_of(earlier), anew = exhibits_of(fresh);
+  const auto named = [](const Json& exhibits, const std::string& name) {
+    return std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == name; });
+  };
+  std::vector<std::string> order;
+  for (const Exhibit& exhibit : all) order.push_back(exhibit.name);
+  for (const Json* exhibits : {&anew, &old}) {  // then those that this list does not know
+    for (const Json& e : *exhibits) {
+      const std::string name = e.at("name");
+      if (std::ranges::count(order, name) == 0) order.push_back(name);
+    }
+  }
+  Json out = fresh;
+  out["exhibits"] = Json::array();
+  for (const std::string& name : order) {
+    if (const auto at = named(anew, name); at != anew.end()) {
+      out["exhibits"].push_back(*at);
+    } else if (const auto before = named(old, name); before != old.end()) {
+      out["exhibits"].push_back(*before);
+    }
+  }
+  return out;
+}
 
 std::string papers_page(const Json& papers) {
   std::string out = "# The papers, reproduced\n\n";

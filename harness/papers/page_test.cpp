@@ -1,10 +1,10 @@
-// The page that is made of papers.json.
+#include "papers/page.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "base/file.h"
-#include "papers/reproduce.h"
 
 using namespace vsglbench;
 namespace fs = std::filesystem;

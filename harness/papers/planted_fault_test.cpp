@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/file.h"
+#include "papers/flips.h"
 #include "papers/reproduce.h"
 
 using namespace vsglbench;

@@ -1,27 +1,21 @@
 #include "papers/reproduce.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/log.h"
-#include "image/theme.h"
 #include "measure/stopwatch.h"
 #include "papers/measured_table.h"
-#include "papers/sheet.h"
-#include "report/case_names.h"
+#include "papers/sheet_rows.h"
+#include "papers/trial.h"
 #include "report/environment.h"
 #include "report/table.h"
-#include "run/scene_images.h"
+#include "run/case_run.h"
 
 namespace fs = std::filesystem;
 
 namespace vsglbench {
 namespace {
-
-// --- what was measured, as JSON ---
 
 Json to_json(const MeasuredRow& row, const std::string& machine) {
   Json json = {
@@ -43,99 +37,6 @@ Json to_json(const MeasuredTable& table, const Exhibit& exhibit) {
   return {{"scene", table.scene}, {"unit", table.unit}, {"rows", rows}};
 }
 
-// --- the sheet ---
-
-std::string preview(std::string exr) {
-  if (exr.ends_with(".exr")) exr.replace(exr.size() - 4, 4, ".png");
-  return exr;
-}
-
-std::string metrics_line(const CaseResult& c) {
-  if (!c.accuracy) return "";
-  const auto value = [](const MetricResult& m) { return m.heavy_tailed ? m.median : m.value; };
-  const auto rmse = value(c.accuracy->rmse), smape = value(c.accuracy->smape);
-  return rmse && smape ? fmt::format("SMAPE {:.3g} %  RMSE {:.3g}", *smape, *rmse) : "";
-}
-
-// Keeps a place free.
-Bitmap empty_like(const Bitmap& picture) {
-  Bitmap out(picture.width, picture.height);
-  for (size_t i = 0; i < out.bytes.size(); ++i) out.bytes[i] = theme().paper[static_cast<int>(i % 3)];
-  return out;
-}
-
-SheetTile image_of(const Work<Report>& work, const CaseResult& c, const std::string& image,
-                   const std::string& caption) {
-  const bool plain = image == "indirect";
-  return {read_png(work.folder / preview(c.images.at(image))), plain ? caption : caption + ": " + image,
-          plain ? metrics_line(c) : ""};
-}
-
-// A row a kind of image, a tile a case; the reference stands first in the first row, and nothing below it.
-std::vector<SheetRow> rows_of_scene(const Work<Report>& work, const SheetPart& part,
-                                    const std::string& scene) {
-  std::vector<CaseResult> cases;
-  for (const CaseResult& c : work.result.cases) {
-    if (c.scene == scene && matches_glob(c.id, part.cases) && c.images.contains("reference"))
-      cases.push_back(c);
-  }
-  if (cases.empty()) return {};
-  const Captions captions = captions_of(cases);
-  const bool with_reference = std::ranges::count(part.images, "reference") > 0;
-  std::vector<SheetRow> out;
-  for (const std::string& image : part.images) {
-    if (image == "reference") continue;
-    SheetRow row{out.empty() ? fmt::format("{}  {}", scene, captions.shared) : "", {}};
-    if (with_reference) {
-      const Bitmap reference = read_png(work.folder / preview(cases[0].images.at("reference")));
-      row.tiles.push_back(out.empty() ? SheetTile{reference, "reference", ""}
-                                      : SheetTile{empty_like(reference), "", ""});
-    }
-    const size_t before = row.tiles.size();
-    for (size_t i = 0; i < cases.size(); ++i) {
-      if (cases[i].images.contains(image))
-        row.tiles.push_back(image_of(work, cases[i], image, captions.cases[i]));
-    }
-    if (row.tiles.size() > before) out.push_back(std::move(row));
-  }
-  return out;
-}
-
-// A block a scene.
-std::vector<SheetRow> rows_of(const Work<Report>& work, const SheetPart& part) {
-  std::vector<std::string> scenes;
-  for (const CaseResult& c : work.result.cases) {
-    if (std::ranges::count(scenes, c.scene) == 0) scenes.push_back(c.scene);
-  }
-  std::vector<SheetRow> out;
-  for (const std::string& scene : scenes) {
-    for (SheetRow& row : rows_of_scene(work, part, scene)) out.push_back(std::move(row));
-  }
-  return out;
-}
-
-// A picture each, captioned with where it lies.
-SheetRow files_of(const fs::path& folder, const SheetPart& part) {
-  std::vector<std::string> paths;
-  std::error_code ec;
-  for (fs::recursive_directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
-    if (at->path().filename().string().starts_with('.'))
-      continue;  // half written by a process that was killed
-    if (at->path().extension() == ".png")
-      paths.push_back(at->path().lexically_relative(folder).generic_string());
-  }
-  std::ranges::sort(paths);
-  SheetRow row;
-  for (const std::string& path : paths) {
-    const auto matches = [&](const std::string& glob) { return matches_glob(path, glob); };
-    if (std::ranges::any_of(part.files, matches)) {
-      const std::string caption = path.substr(0, path.size() - 4);
-      row.tiles.push_back({read_png(folder / path), caption, ""});
-    }
-  }
-  return row;
-}
-
 class ExhibitWork {
  public:
   ExhibitWork(const Exhibit& exhibit, const std::vector<PaperClaim>& claims, PapersWork* work,
@@ -152,6 +53,7 @@ class ExhibitWork {
   void take_lights(const std::string& config);
   void take_figure();
   void take_code_size();
+  void show(const std::string& source, const fs::path& folder, const Report* report);
   void add_sheet(const fs::path& sheets);
   void note_failed(const std::vector<std::pair<std::string, std::string>>& failed);
   void note_machine(const DeviceReport& device);
@@ -230,11 +132,7 @@ void ExhibitWork::take_run(const std::string& config) {
   if (!exhibit_.columns.empty())
     json_["reports"].push_back(
         {{"config", config}, {"markdown", markdown_table(report, {.columns = exhibit_.columns})}});
-  for (const SheetPart& part : exhibit_.sheet) {
-    if (part.run != config) continue;
-    if (!part.files.empty()) rows_.push_back(files_of(work.folder, part));
-    for (SheetRow& row : rows_of(work, part)) rows_.push_back(std::move(row));
-  }
+  show(config, work.folder, &report);
 }
 
 // Of all ok cases of `fis`, by what its kernels hold of the PDF.
@@ -292,9 +190,7 @@ void ExhibitWork::take_lights(const std::string& config) {
   }
   note_failed(failed);
   if (exhibit_.edges) add(trials_of(work.result, exhibit_));
-  for (const SheetPart& part : exhibit_.sheet) {
-    if (part.run == config + "-lights") rows_.push_back(files_of(work.folder, part));
-  }
+  show(config + "-lights", work.folder, nullptr);
 }
 
 void ExhibitWork::take_figure() {
@@ -304,9 +200,7 @@ void ExhibitWork::take_figure() {
   const Json& d = work.result.device;
   json_["device"] = d;
   add(trials_of(work.result, exhibit_));
-  for (const SheetPart& part : exhibit_.sheet) {
-    if (part.run == exhibit_.figure) rows_.push_back(files_of(work.folder, part));
-  }
+  show(exhibit_.figure, work.folder, nullptr);
 }
 
 void ExhibitWork::take_code_size() {
@@ -315,6 +209,21 @@ void ExhibitWork::take_code_size() {
   json_["device"] = counted.at("device");
   json_["tables"].push_back(to_json(code_size_table_of(sizes, exhibit_), exhibit_));
   add(trials_of_code_size(sizes, exhibit_));
+}
+
+// Rows of the parts that are of this run, these lights or this figure; a run has a report.
+void ExhibitWork::show(const std::string& source, const fs::path& folder, const Report* report) {
+  std::vector<std::string> problems;
+  for (const SheetPart& part : exhibit_.sheet) {
+    if (part.run != source) continue;
+    if (!part.files.empty()) rows_.push_back(files_of(folder, part, &problems));
+    if (!report || part.images.empty()) continue;
+    for (SheetRow& row : rows_of(*report, folder, part, &problems)) rows_.push_back(std::move(row));
+  }
+  Json& told = json_["problems"];
+  for (const std::string& problem : problems) {
+    if (std::find(told.begin(), told.end(), Json(problem)) == told.end()) told.push_back(problem);
+  }
 }
 
 void ExhibitWork::add_sheet(const fs::path& sheets) {
@@ -357,95 +266,6 @@ Json ExhibitWork::measure(const fs::path& sheets) {
 Json reproduce_exhibit(const Exhibit& exhibit, const std::vector<PaperClaim>& claims, PapersWork* work,
                        const std::string& scale, const fs::path& sheets) {
   return ExhibitWork(exhibit, claims, work, scale).measure(sheets);
-}
-
-std::vector<ClaimTrial> trials_in(const Json& papers) {
-  std::vector<ClaimTrial> out;
-  for (const Json& exhibit : papers.at("exhibits")) {
-    for (const Json& trial : exhibit.at("trials")) out.push_back(trial_from_json(trial));
-  }
-  return out;
-}
-
-Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& all) {
-  const auto exhibits_of = [](const Json& papers) { return papers.value("exhibits", Json::array()); };
-  const Json old = exhibits_of(earlier), anew = exhibits_of(fresh);
-  const auto named = [](const Json& exhibits, const std::string& name) {
-    return std::ranges::find_if(exhibits, [&](const Json& e) { return e.at("name") == name; });
-  };
-  std::vector<std::string> order;
-  for (const Exhibit& exhibit : all) order.push_back(exhibit.name);
-  for (const Json* exhibits : {&anew, &old}) {  // then those that this list does not know
-    for (const Json& e : *exhibits) {
-      const std::string name = e.at("name");
-      if (std::ranges::count(order, name) == 0) order.push_back(name);
-    }
-  }
-  Json out = fresh;
-  out["exhibits"] = Json::array();
-  for (const std::string& name : order) {
-    if (const auto at = named(anew, name); at != anew.end()) {
-      out["exhibits"].push_back(*at);
-    } else if (const auto before = named(old, name); before != old.end()) {
-      out["exhibits"].push_back(*before);
-    }
-  }
-  return out;
-}
-
-// --- flips ---
-
-namespace {
-
-using TrialKey = std::array<std::string, 5>;
-
-std::map<TrialKey, ClaimTrial> by_key(const Json& papers) {
-  std::map<TrialKey, ClaimTrial> out;
-  for (const Json& exhibit : papers.at("exhibits")) {
-    for (const Json& json : exhibit.at("trials")) {
-      const ClaimTrial t = trial_from_json(json);
-      out[{t.exhibit, exhibit.at("scale"), t.claim, t.place, t.metric}] = t;
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-Flips flips(const Json& before, const Json& after) {
-  const auto certain = [](Ruling r) { return r != Ruling::undecided && r != Ruling::not_run; };
-  const std::map<TrialKey, ClaimTrial> old = by_key(before), now = by_key(after);
-  Flips out;
-  for (const auto& [key, t] : now) {
-    const auto at = old.find(key);
-    if (at == old.end()) continue;
-    ++out.compared;
-    if (at->second.ruling != t.ruling)
-      out.changed.push_back({at->second, t, certain(at->second.ruling) && certain(t.ruling)});
-  }
-  // Of what was asked for anew at this scale.
-  const auto tried = [&](const TrialKey& key) {
-    return std::ranges::any_of(
-        now, [&](const auto& item) { return item.first[0] == key[0] && item.first[1] == key[1]; });
-  };
-  for (const auto& [key, t] : old) out.vanished += !now.contains(key) && tried(key);
-  return out;
-}
-
-std::string flip_text(const Flip& flip) {
-  const auto number = [](const ClaimTrial& t) {
-    if (!t.ratio) return t.figures;
-    if (!t.ci95) return fmt::format("{:.3g}", *t.ratio);
-    return fmt::format("{:.3g} [{:.3g}, {:.3g}]", *t.ratio, t.ci95->lo, t.ci95->hi);
-  };
-  const std::string what = !flip.lost                            ? "can be told otherwise"
-                           : flip.before.ruling == Ruling::holds ? "no longer holds"
-                           : flip.after.ruling == Ruling::holds  ? "now holds"
-                                                                 : std::string(name(flip.after.ruling));
-  return fmt::format("{}: {}: {} ({}, {}, {}; was {}: {}, is {}: {})", flip.after.source, what,
-                     flip.after.text, flip.after.exhibit, flip.after.place, flip.after.metric,
-                     name(flip.before.ruling), number(flip.before), name(flip.after.ruling),
-                     number(flip.after));
 }
 
 }  // namespace vsglbench

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "image/png.h"
+#include "papers/page.h"
+#include "run/scene_images.h"
 
 using namespace vsglbench;
 namespace fs = std::filesystem;
@@ -104,6 +106,58 @@ TEST_F(Reproduce, AsItIsTakesWhatAnotherProgrammeMade) {
   EXPECT_EQ(make(as_is)["tables"], first["tables"]);
   EXPECT_EQ(make(as_is)["measured"][0]["commit"], std::string(40, '0'));
   EXPECT_NE(make(options())["measured"][0]["commit"], std::string(40, '0'));  // measured anew
+}
+
+TEST_F(Reproduce, AsItIsLeavesWhatIsOfAnotherConfigNow) {
+  make(options());
+  Json config = JsonDocument::load(folder_ / "tiny.json", ErrorKind::config).root();
+  config["N"] = 8;
+  write_text(folder_ / "tiny.json", config.dump());
+  WorkOptions as_is = options();
+  as_is.as_is = true;
+  EXPECT_TRUE(make(as_is).at("problems").empty());
+  const Report report = read_report(folder_ / "out" / "tiny" / "report.json");
+  EXPECT_EQ(report.cases.at(0).parameters.at("N"), 8);
+}
+
+// Only the case whose picture it was is measured again.
+TEST_F(Reproduce, LostPicturesAreMadeAgain) {
+  make(options());
+  const fs::path file = folder_ / "out" / "tiny" / "report.json";
+  const Report before = read_report(file);
+  const std::string lost = preview_of(before.cases.at(0).images.at("indirect"));
+  fs::remove(folder_ / "out" / "tiny" / lost);
+  WorkOptions as_is = options();
+  as_is.as_is = true;
+  const Json kept = make(as_is);
+  ASSERT_EQ(kept.at("problems").size(), 1u) << kept.at("problems").dump();
+  EXPECT_NE(kept["problems"][0].get<std::string>().find("--force"), std::string::npos);
+  EXPECT_EQ(kept.at("sheet"), "tiny-fig.png");  // with the others
+  EXPECT_TRUE(make(options()).at("problems").empty());
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "tiny" / lost));
+  const Report after = read_report(file);
+  EXPECT_EQ(after.created, before.created);
+  EXPECT_EQ(after.cases.at(1).frame->span.samples, before.cases.at(1).frame->span.samples);
+}
+
+TEST_F(Reproduce, LostPicturesOfLightsAreDrawnAgain) {
+  exhibit_.runs.clear();
+  exhibit_.lights = {(folder_ / "tiny.json").string()};
+  exhibit_.light_cases = {"*/mfis/*"};
+  exhibit_.table.clear();
+  exhibit_.sheet = {{exhibit_.lights[0] + "-lights", "*", {}, {"*rsm.png", "*absent.png"}}};
+  const Json first = make(options());
+  ASSERT_EQ(first.at("problems").size(), 1u) << first.at("problems").dump();
+  EXPECT_NE(first["problems"][0].get<std::string>().find("no picture matches '*absent.png'"),
+            std::string::npos);
+  const fs::path folder = folder_ / "out" / "tiny-lights";
+  for (const auto& at : fs::recursive_directory_iterator(folder)) {
+    if (at.path().filename() == "rsm.png") {
+      fs::remove(at.path());
+      break;
+    }
+  }
+  EXPECT_EQ(make(options()).at("problems"), first.at("problems"));
 }
 
 TEST_F(Reproduce, WhatFailsCostsItself) {

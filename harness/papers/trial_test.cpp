@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "papers/reproduce.h"
+#include "papers/flips.h"
 
 using namespace vsglbench;
 

@@ -29,28 +29,43 @@ Json identity(const WorkOptions& options, Json of) {
           {"assets", !assets_directory(options.assets).empty()}};
 }
 
-// The result that lies there, if it is the one that is wanted.
+// The first key of a resolved config that differs from another one's; empty: they are the same.
+std::string differing_key(const Json& a, const Json& b) {
+  for (const auto& item : a.items()) {
+    if (!b.contains(item.key()) || b.at(item.key()) != item.value()) return item.key();
+  }
+  for (const auto& item : b.items()) {
+    if (!a.contains(item.key())) return item.key();
+  }
+  return "";
+}
+
+// The result that lies there, if it is the one that is wanted; with --as-is whatever programme made it.
 std::optional<Json> made_before(const fs::path& folder, const Json& wanted, const WorkOptions& options) {
   std::error_code ec;
   if (options.force || !fs::exists(folder / kMadeFile, ec)) return std::nullopt;
   try {
     const Json made = JsonDocument::load(folder / kMadeFile, ErrorKind::output).root();
-    if (options.as_is || made.at("identity") == wanted) return made.at("result");
+    const Json& id = made.at("identity");
+    if (id == wanted || (options.as_is && id.at("of") == wanted.at("of"))) return made.at("result");
+    if (options.as_is)
+      log_warning("{}: is of another config than it is now; it is made anew", (folder / kMadeFile).string());
   } catch (const std::exception& e) {
     log_warning("{}: {}; it is made anew", (folder / kMadeFile).string(), e.what());
   }
   return std::nullopt;
 }
 
-// A whole report of this experiment at this scale, whatever programme and device made it.
-std::optional<Report> complete_at(const fs::path& folder, const std::string& name, const std::string& scale) {
+// A whole report of this experiment as it is now, at this scale, whatever programme and device made it.
+std::optional<Report> complete_at(const fs::path& folder, const Json& config) {
   std::error_code ec;
   if (!fs::exists(folder / "report.json", ec)) return std::nullopt;
   Report report = read_report_at(folder);
-  const bool wanted = report.config.value("name", "") == name && report.config.value("scale", "") == scale;
-  if (!wanted)
-    log_warning("{}: is of another config or scale; {} is measured", (folder / "report.json").string(), name);
-  return wanted && report.complete ? std::optional(std::move(report)) : std::nullopt;
+  const std::string other = differing_key(config, report.config);
+  if (!other.empty())
+    log_warning("{}: its config differs from {} as it is now in '{}'; it is measured anew",
+                (folder / "report.json").string(), config.value("name", ""), other);
+  return other.empty() && report.complete ? std::optional(std::move(report)) : std::nullopt;
 }
 
 void keep(const fs::path& folder, const Json& id, const Json& result) {
@@ -61,6 +76,23 @@ std::vector<LightsResult> lights_from(const Json& json) {
   std::vector<LightsResult> out;
   for (const Json& item : json) from_json(item, &out.emplace_back());
   return out;
+}
+
+// Whether the pictures and lists that were drawn still lie there.
+bool all_there(const std::vector<LightsResult>& drawn, const fs::path& folder) {
+  std::error_code ec;
+  for (const LightsResult& r : drawn) {
+    if (r.status != Status::ok || r.folder.empty()) continue;
+    for (const char* file : {"rsm.png", "scene.png", "lights.json"})
+      if (!fs::exists(folder / r.folder / file, ec)) return false;
+  }
+  return true;
+}
+
+bool all_there(const DrawnFigure& drawn, const fs::path& folder) {
+  std::error_code ec;
+  return std::ranges::all_of(drawn.paths,
+                             [&](const fs::path& path) { return fs::exists(folder / path.filename(), ec); });
 }
 
 // In a process of its own, which may open a device.
@@ -89,8 +121,8 @@ const Work<Report>& PapersWork::run(const std::string& config) {
   const auto known = runs_.find(config);
   if (known != runs_.end()) return known->second;
   const fs::path where = folder(config, "");
-  const std::string name = load_config(config_path(config), Json::object(), options_.scale).name;
-  if (auto report = options_.as_is ? complete_at(where, name, options_.scale) : std::nullopt)
+  const Json now = load_config(config_path(config), Json::object(), options_.scale).resolved;
+  if (auto report = options_.as_is ? complete_at(where, now) : std::nullopt)
     return runs_.emplace(config, Work<Report>{std::move(*report), where}).first->second;
   RunOptions options{.config = config_path(config),
                      .out = where,
@@ -113,9 +145,9 @@ const Work<std::vector<LightsResult>>& PapersWork::lights(const std::string& con
   const Json id = identity(
       options_, {load_config(config_path(config), Json::object(), options_.scale).resolved, cases, seed});
   std::vector<LightsResult> results;
-  if (const auto made = made_before(where, id, options_)) {
-    results = lights_from(*made);
-  } else {
+  const auto made = made_before(where, id, options_);
+  if (made) results = lights_from(*made);
+  if (!made || (!options_.as_is && !all_there(results, where))) {
     results = run_lights({.config = config_path(config),
                           .scale = options_.scale,
                           .out = where,
@@ -139,9 +171,9 @@ const Work<DrawnFigure>& PapersWork::figure(const std::string& config, uint32_t 
   const Json figure = load_figure_config(config_path(config), width, height);
   const Json id = identity(options_, figure);
   DrawnFigure drawn;
-  if (const auto made = made_before(where, id, options_)) {
-    from_json(*made, &drawn);
-  } else {
+  const auto made = made_before(where, id, options_);
+  if (made) from_json(*made, &drawn);
+  if (!made || (!options_.as_is && !all_there(drawn, where))) {
     ensure_writable_directory(fs::absolute(where));
     drawn = draw_figure({.config = figure,
                          .assets = assets_directory(options_.assets),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "figure/drawing.h"
+#include "papers/exhibit.h"
 #include "report/report.h"
 #include "run/lights_run.h"
 
@@ -50,9 +51,8 @@ class PapersWork {
   static constexpr uint32_t kSeeds = 8;
 
  private:
-  // A config may be a path.
   std::filesystem::path folder(const std::string& config, const std::string& of) const {
-    return options_.out / (std::filesystem::path(config).stem().string() + of);
+    return options_.out / folder_of(config, of);
   }
   WorkOptions options_;
   std::map<std::string, Work<Report>> runs_;

@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "run/scene_images.h"
 
 namespace fs = std::filesystem;
 
@@ -24,6 +25,14 @@ bool same_machine(const DeviceReport& a, const DeviceReport& b) {
 bool same_run(const Report& a, const Report& b) {
   return a.config == b.config && a.git.commit == b.git.commit && a.git.dirty == b.git.dirty &&
          a.kernels == b.kernels && same_machine(a.device, b.device);
+}
+
+// A case that has what a report tells of it: its numbers, and its pictures on the disk.
+bool is_whole(const CaseResult& c, const fs::path& folder) {
+  std::error_code ec;
+  return c.status == Status::ok && std::ranges::all_of(c.images, [&](const auto& image) {
+           return fs::exists(folder / preview_of(image.second), ec);
+         });
 }
 
 // False when somebody else holds it. A worker whose command was killed a moment ago may hold it a moment
@@ -85,7 +94,7 @@ std::optional<Report> ReportStore::saved(const Report& fresh, bool anew, bool ag
     Report report = read_report(path_);
     if (!anew && !report.complete && same_run(report, fresh)) return report;
     if (!anew && again && same_run(report, fresh)) {
-      std::erase_if(report.cases, [](const CaseResult& c) { return c.status != Status::ok; });
+      std::erase_if(report.cases, [&](const CaseResult& c) { return !is_whole(c, folder_); });
       report.complete = false;
       return report;
     }
@@ -102,8 +111,8 @@ std::optional<Report> ReportStore::finished(const Report& fresh) const {
   if (!fs::exists(path_, ec)) return std::nullopt;
   try {
     Report report = read_report(path_);
-    const auto ok = [](const CaseResult& c) { return c.status == Status::ok; };
-    if (report.complete && same_run(report, fresh) && std::ranges::all_of(report.cases, ok)) return report;
+    const auto whole = [&](const CaseResult& c) { return is_whole(c, folder_); };
+    if (report.complete && same_run(report, fresh) && std::ranges::all_of(report.cases, whole)) return report;
   } catch (const Error&) {  // open() tells of what is damaged
   }
   return std::nullopt;

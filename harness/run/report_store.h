@@ -24,9 +24,11 @@ class ReportStore {
 
   // What to go on with: the report of an interrupted run of the same experiment, program and device, saved
   // already or only begun; else `fresh`, and always so with `anew`.
-  // `again`: a complete report of the same run is gone on with, too, without its failed and skipped cases.
+  // `again`: a complete report of the same run is gone on with, too, without its failed and skipped cases,
+  // and those whose pictures are not on the disk.
   Report open(const Report& fresh, bool anew, bool again = false);
-  // A complete report of the same experiment, program and device, all of whose cases are ok.
+  // A complete report of the same experiment, program and device, all of whose cases are ok and have their
+  // pictures on the disk.
   std::optional<Report> finished(const Report& fresh) const;
   // In a child process: closes its copy of the lock, which is the parent's alone. Without it a child that
   // dies a moment after the parent would keep the next run out.

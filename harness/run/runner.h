@@ -19,8 +19,8 @@ struct RunOptions {
   std::string scale;              // of the config's `scales`; empty: none
   std::string device;             // as in select_device()
   bool force = false;             // measure again what an interrupted run had finished
-  // A complete report of the same experiment, program and device stands; what failed there, or was skipped,
-  // is tried again.
+  // A complete report of the same experiment, program and device stands; what failed there, was skipped, or
+  // has lost its pictures is tried again.
   bool keep_complete = false;
   bool validation = false;     // with the validation layers; a message fails the run
   bool check_passes = false;   // every pass by itself, its outputs looked at: FrameParameters::check_passes

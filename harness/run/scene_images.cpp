@@ -116,6 +116,11 @@ std::string image_stem(const Case& c) {
   return scene_folder(c.scene) + "/" + file_name(c.method) + "/" + file_name(parameters_of(c));
 }
 
+std::string preview_of(std::string exr) {
+  if (exr.ends_with(".exr")) exr.replace(exr.size() - 4, 4, ".png");
+  return exr;
+}
+
 // Medians of heavy-tailed seeds: the sheet has no room for ranges.
 std::string figures_of(const CaseResult& c) {
   if (c.status != Status::ok) return c.error ? c.error->message : "failed";

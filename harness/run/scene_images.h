@@ -22,6 +22,9 @@ std::string file_name(const std::string& name);
 std::string scene_folder(const std::string& scene);
 std::string image_stem(const Case& c);
 
+// "x.png", which lies beside every "x.exr" that a report names: the picture as it is looked at.
+std::string preview_of(std::string exr);
+
 // "SMAPE 24.8 %   lit 21 %   RMSE 0.0155", and in a second line "bias −19.9 %   FLIP 0.12   method 41.5 ms",
 // or why there are no errors.
 std::string figures_of(const CaseResult& c);

@@ -6,18 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "run/case_run.h"
+#include "run/scene_outcome.h"
 #include "scene/scene_file.h"
 
 namespace vsglbench {
-
-// What is known of a scene and its cases.
-struct SceneOutcome {
-  std::vector<CaseResult> cases;     // in the order in which they came to an end
-  std::optional<SceneReport> scene;  // nothing when it could not be loaded
-  std::optional<AaPair> aa;
-  Progresses begun;  // of the cases that have not come to an end, and of the A/A twin
-};
 
 // Is told everything as soon as it is known.
 class SceneObserver {
@@ -38,21 +30,11 @@ struct SceneRunOptions {
   bool aa = false;            // measure the first sound case a second time under another name
 };
 
-// A case's name when it is measured a second time.
-std::string twin_id(const std::string& case_id);
-
 // Concludes each of `cases`; then the contact sheet, which shows those of `earlier`, too: cases that another
 // process has measured. What that has begun is gone on with. Throws Error(device_lost) when the device is
 // lost; whatever else is wrong with a case or with the scene is in the results.
 void run_scene(Device& device, KernelLibrary& kernels, const std::string& scene, const Config& config,
                const std::vector<Case>& cases, const SceneOutcome& earlier, const SceneRunOptions& options,
                SceneObserver& observer, WallTime* wall);
-
-// Cases that were not run, all for the same reason.
-std::vector<CaseResult> failed_cases(const std::vector<Case>& cases, const Config& config, ErrorKind kind,
-                                     const std::string& message);
-
-// `results` in the order of the experiment's cases.
-void sort_like(const std::vector<Case>& cases, std::vector<CaseResult>* results);
 
 }  // namespace vsglbench
