@@ -9,7 +9,7 @@
 #include "answer/price.h"
 #include "dashboard/columns.h"
 #include "dashboard/digest.h"
-#include "papers/reproduce.h"
+#include "papers/page.h"
 
 namespace vsglbench {
 namespace {

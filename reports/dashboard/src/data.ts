@@ -1,6 +1,5 @@
 // What the page shows: made by `vsglbench dashboard` (harness/dashboard/), a zlib stream in base64 in the
 // element #data. Numbers have seven significant digits. Times are in ms, errors in their metric's unit.
-import { unzlibSync } from "fflate";
 
 // A column of numbers and both ends of its 95 % intervals; null where a case has none.
 export interface Estimates {
@@ -96,8 +95,8 @@ export interface Flicker {
   lo: number;
   hi: number;
   p99: number;
-  worst_frame: number; // index of the later frame
-  series: number[]; // of derivative: between frames; of static: per frame
+  worst_frame: number; // index of the later frame; of static, a seed
+  series: number[]; // of derivative: between frames; of static: per seed
 }
 
 export interface Report {
@@ -148,7 +147,7 @@ export interface Claim {
   why: string;
 }
 
-// A picture in the page. An EXR has half floats, channels R, G and B; a PNG was tone-mapped with the scene's exposure.
+// A picture in the page. An EXR has half floats, channels R, G, B and, where it is known, A: 1 where a surface is; a PNG was tone-mapped with the scene's exposure.
 export interface Image {
   report: number; // index in Digest.reports
   scene: number;
@@ -209,11 +208,14 @@ export interface Digest {
   notes: string[]; // what a reader must know of how the page was made
 }
 
-export function bytesOf(element: string): Uint8Array {
-  const text = document.getElementById(element)?.textContent?.trim() ?? "";
-  return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+export function bytesOf(element: string): Uint8Array<ArrayBuffer> {
+  const text = atob(document.getElementById(element)?.textContent?.trim() ?? "");
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
 }
 
-export function readDigest(): Digest {
-  return JSON.parse(new TextDecoder().decode(unzlibSync(bytesOf("data"))));
+export async function readDigest(): Promise<Digest> {
+  const inflated = new Blob([bytesOf("data")]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(inflated).json();
 }

@@ -65,7 +65,7 @@ function start(digest: Digest, app: HTMLElement): void {
 
 const app = document.getElementById("app")!;
 try {
-  start(readDigest(), app);
+  start(await readDigest(), app);
 } catch (error) {
   app.replaceChildren(h("p", { class: "failed", role: "alert" }, `The page's data can't be shown: ${error}`));
   throw error;

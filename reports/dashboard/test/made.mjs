@@ -2,14 +2,14 @@
 import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, relative } from "node:path";
-import { unzlibSync, zlibSync } from "fflate";
+import { deflateSync, inflateSync } from "node:zlib";
 
 const pages = process.env.VSGLBENCH_DASHBOARD_PAGES ?? "";
 const element = /(<script[^>]*id="data"[^>]*>)([^<]*)(<\/script>)/;
 
 export function digestOf(name) {
   const text = readFileSync(join(pages, `${name}.html`), "utf8");
-  return JSON.parse(new TextDecoder().decode(unzlibSync(Buffer.from(element.exec(text)[2].trim(), "base64"))));
+  return JSON.parse(inflateSync(Buffer.from(element.exec(text)[2].trim(), "base64")).toString());
 }
 
 // -> the name under which harness.open() finds the page whose data `change` has been through.
@@ -17,7 +17,7 @@ export function made(name, change) {
   const text = readFileSync(join(pages, `${name}.html`), "utf8");
   const digest = digestOf(name);
   change(digest);
-  const data = Buffer.from(zlibSync(new TextEncoder().encode(JSON.stringify(digest)))).toString("base64");
+  const data = deflateSync(JSON.stringify(digest)).toString("base64");
   const file = join(mkdtempSync(join(tmpdir(), "vsglbench-page-")), "page");
   writeFileSync(`${file}.html`, text.replace(element, (_, open, __, close) => open + data + close));
   return relative(pages, file);
