@@ -30,24 +30,33 @@ void make(DashboardCommand command) {
 
 void add_dashboard_command(CLI::App& app) {
   auto options = std::make_shared<DashboardCommand>();
-  CLI::App* command = app.add_subcommand("dashboard", "one page of one report, two, or a history, for a browser");
+  CLI::App* command =
+      app.add_subcommand("dashboard", "one page of one report, two, or a history, for a browser");
   command->footer(
-      "The page holds all that it shows and opens from a file, without a network: error against time, passes, "
-      "budgets,\nprices of knobs, images, flicker, effects, claims. Two reports are compared, the first being the "
-      "base. Of more,\nthe newest is shown in full and all of its machine as a history. Pictures come from the "
+      "The page holds all that it shows and opens from a file, without a network: error against time, "
+      "passes, "
+      "budgets,\nprices of knobs, images, flicker, effects, claims. Two reports are compared, the first "
+      "being the "
+      "base. Of more,\nthe newest is shown in full and all of its machine as a history. Pictures come from "
+      "the "
       "report's folder: the\nfront's cases as half floats, the others as PNG.\n"
-      "Example: vsglbench dashboard reports/front-lavapipe --papers reports/papers/lavapipe/papers.json --out "
+      "Example: vsglbench dashboard reports/front-lavapipe --papers reports/papers/lavapipe/papers.json "
+      "--out "
       "index.html");
-  command->add_option("reports", options->order.reports, "report.json, or its folder; may come again")->required();
+  command->add_option("reports", options->order.reports, "report.json, or its folder; may come again")
+      ->required();
   command->add_option("--out", options->out, "the page (default: index.html)");
   command->add_option("--stability", options->order.stability, "what `stability --json` printed");
   command->add_option("--papers", options->order.papers, "papers.json, which `reproduce` wrote");
   command->add_option("--images", options->images, "none, png, or exr (default): pictures in the page");
-  command->add_option("--case", options->order.pictures.cases,
-                      "glob of ids whose pictures have values, beside the front's; may come again")
+  command
+      ->add_option("--case", options->order.pictures.cases,
+                   "glob of ids whose pictures have values, beside the front's; may come again")
       ->allow_extra_args(false);
   command->add_option("--metric", options->order.pictures.metric, "whose front that is (default: smape)");
-  command->add_option("--max-mb", options->order.pictures.max_mb, "of the page that pictures may take (default: 25)")
+  command
+      ->add_option("--max-mb", options->order.pictures.max_mb,
+                   "of the page that pictures may take (default: 25)")
       ->check(CLI::NonNegativeNumber);
   command->callback([=] { make(*options); });
 }

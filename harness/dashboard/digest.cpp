@@ -13,8 +13,12 @@ namespace vsglbench {
 namespace {
 
 Json effect_json(const EffectReport& e) {
-  Json out = {{"name", e.name},       {"needed", e.needed}, {"reason", e.reason},
-              {"passes", e.passes},   {"ms", rounded(e.ms)}, {"ms_ci95", nullptr},
+  Json out = {{"name", e.name},
+              {"needed", e.needed},
+              {"reason", e.reason},
+              {"passes", e.passes},
+              {"ms", rounded(e.ms)},
+              {"ms_ci95", nullptr},
               {"bytes", e.bytes ? Json(*e.bytes) : Json(nullptr)}};
   if (e.ms_ci95) out["ms_ci95"] = {rounded(e.ms_ci95->lo), rounded(e.ms_ci95->hi)};
   return out;
@@ -30,9 +34,14 @@ Json scene_json(const SceneReport& s) {
               {"ratio", rounded(r.value)},
               {"ratio_ci95", {rounded(r.ci95.lo), rounded(r.ci95.hi)}}};
   }
-  return {{"name", s.name},           {"hash", s.hash},         {"triangles", s.triangles},
-          {"exposure", s.exposure},   {"warnings", s.warnings}, {"notes", s.notes},
-          {"effects", std::move(effects)}, {"priced", std::move(priced)}};
+  return {{"name", s.name},
+          {"hash", s.hash},
+          {"triangles", s.triangles},
+          {"exposure", s.exposure},
+          {"warnings", s.warnings},
+          {"notes", s.notes},
+          {"effects", std::move(effects)},
+          {"priced", std::move(priced)}};
 }
 
 std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
@@ -142,7 +151,8 @@ DigestGroups digest_groups(const Report& report) {
   for (const Json& metric : digest_metrics(report)) {
     const auto name = metric.at("name").get<std::string>();
     for (const PointGroup& g : point_groups(report, {name, "method"})) {
-      if (g.error_floor > 0) out.list[known.at({g.scene, g.reference})]["floor"][name] = rounded(g.error_floor);
+      if (g.error_floor > 0)
+        out.list[known.at({g.scene, g.reference})]["floor"][name] = rounded(g.error_floor);
     }
   }
   return out;
@@ -153,40 +163,41 @@ Json digest_of(const Report& report, const std::string& file) {
   DigestAnswers answers = digest_answers(report, groups);
   Json scenes = Json::array();
   for (const SceneReport& s : report.scenes) scenes.push_back(scene_json(s));
-  return {{"file", file},
-          {"name", text_or(report.config, "name")},
-          {"description", text_or(report.config, "description")},
-          {"measure", text_or(report.config, "measure").empty() ? "frame" : text_or(report.config, "measure")},
-          {"created", report.created},
-          {"commit", report.git.commit == "unknown" ? "" : report.git.commit},
-          {"dirty", report.git.dirty},
-          {"complete", report.complete},
-          {"command", command_text(report)},
-          {"device", report.device.name},
-          {"device_type", report.device.type},
-          {"driver", report.device.driver + " " + report.device.driver_version},
-          {"host", report.host.cpu},
-          {"width", frame_side(report, "width")},
-          {"height", frame_side(report, "height")},
-          {"wall_s", rounded(report.wall.total_s)},
-          {"settings", shared_settings(report)},
-          {"scenes", std::move(scenes)},
-          {"methods", methods_of(report)},
-          {"metrics", digest_metrics(report)},
-          {"times", time_names(report)},
-          {"passes", pass_names(report)},
-          {"extra",
-           {{{"name", "lights"}, {"unit", ""}, {"words", "lights that were made"}},
-            {{"name", "empty"}, {"unit", ""}, {"words", "of them without flux"}},
-            {{"name", "memory_bytes"}, {"unit", "B"}, {"words", "memory of the method's own buffers"}},
-            {{"name", "flux"}, {"unit", ""}, {"words", "power of the lights over that of the RSM"}},
-            {{"name", "bias"}, {"unit", ""}, {"words", "energy of the image over the reference's, less 1"}}}},
-          {"groups", groups.list},
-          {"cases", digest_cases(report, groups.of_case)},
-          {"budgets", std::move(answers.budgets)},
-          {"knobs", std::move(answers.knobs)},
-          {"temporal", digest_temporal(report)},
-          {"claims", digest_claims(report)}};
+  return {
+      {"file", file},
+      {"name", text_or(report.config, "name")},
+      {"description", text_or(report.config, "description")},
+      {"measure", text_or(report.config, "measure").empty() ? "frame" : text_or(report.config, "measure")},
+      {"created", report.created},
+      {"commit", report.git.commit == "unknown" ? "" : report.git.commit},
+      {"dirty", report.git.dirty},
+      {"complete", report.complete},
+      {"command", command_text(report)},
+      {"device", report.device.name},
+      {"device_type", report.device.type},
+      {"driver", report.device.driver + " " + report.device.driver_version},
+      {"host", report.host.cpu},
+      {"width", frame_side(report, "width")},
+      {"height", frame_side(report, "height")},
+      {"wall_s", rounded(report.wall.total_s)},
+      {"settings", shared_settings(report)},
+      {"scenes", std::move(scenes)},
+      {"methods", methods_of(report)},
+      {"metrics", digest_metrics(report)},
+      {"times", time_names(report)},
+      {"passes", pass_names(report)},
+      {"extra",
+       {{{"name", "lights"}, {"unit", ""}, {"words", "lights that were made"}},
+        {{"name", "empty"}, {"unit", ""}, {"words", "of them without flux"}},
+        {{"name", "memory_bytes"}, {"unit", "B"}, {"words", "memory of the method's own buffers"}},
+        {{"name", "flux"}, {"unit", ""}, {"words", "power of the lights over that of the RSM"}},
+        {{"name", "bias"}, {"unit", ""}, {"words", "energy of the image over the reference's, less 1"}}}},
+      {"groups", groups.list},
+      {"cases", digest_cases(report, groups.of_case)},
+      {"budgets", std::move(answers.budgets)},
+      {"knobs", std::move(answers.knobs)},
+      {"temporal", digest_temporal(report)},
+      {"claims", digest_claims(report)}};
 }
 
 }  // namespace vsglbench

@@ -81,13 +81,14 @@ Json flicker_json(const FlickerSeries& f) {
   Json series = Json::array();
   for (const double v : f.series) series.push_back(rounded(v));
   const Interval ci = f.ci95.value_or(Interval{f.value, f.value});
-  return {{"value", rounded(f.value)}, {"lo", rounded(ci.lo)},           {"hi", rounded(ci.hi)},
+  return {{"value", rounded(f.value)}, {"lo", rounded(ci.lo)},         {"hi", rounded(ci.hi)},
           {"p99", rounded(f.p99)},     {"worst_frame", f.worst_frame}, {"series", std::move(series)}};
 }
 
 Json detail_json(const DetailResult& d) {
   const Interval ci = d.ci95.value_or(Interval{d.value, d.value});
-  return {{"value", rounded(d.value)}, {"lo", rounded(ci.lo)}, {"hi", rounded(ci.hi)}, {"gain", rounded(d.gain)}};
+  return {
+      {"value", rounded(d.value)}, {"lo", rounded(ci.lo)}, {"hi", rounded(ci.hi)}, {"gain", rounded(d.gain)}};
 }
 
 // "fis beside mfis, at equal N; the ratio must be below 1" and where it was tried.

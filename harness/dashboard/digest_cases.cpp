@@ -121,9 +121,8 @@ Json pass_rows(const Report& report) {
 Json digest_metrics(const Report& report) {
   Json out = Json::array();
   for (const std::string& name : error_names()) {
-    const bool has = std::ranges::any_of(report.cases, [&](const CaseResult& c) {
-      return c.accuracy && metric_of(*c.accuracy, name);
-    });
+    const bool has = std::ranges::any_of(
+        report.cases, [&](const CaseResult& c) { return c.accuracy && metric_of(*c.accuracy, name); });
     if (has) out.push_back({{"name", name}, {"title", metric_title(name)}, {"unit", metric_unit(name)}});
   }
   return out;

@@ -67,8 +67,10 @@ TEST_F(FrontDigest, FiguresAreThoseOfTheFile) {
     const Json& rmse = c.at("accuracy").at("rmse");
     if (rmse.value("heavy_tailed", false)) continue;
     ++compared;
-    EXPECT_NEAR(cases.at("errors").at("rmse").at("value")[i].get<double>() / rmse.at("value").get<double>(), 1, 1e-6);
-    const Json& hi = rmse.contains("ci95") ? rmse.at("ci95")[1] : rmse.at("value");  // one seed alone has none
+    EXPECT_NEAR(cases.at("errors").at("rmse").at("value")[i].get<double>() / rmse.at("value").get<double>(),
+                1, 1e-6);
+    const Json& hi =
+        rmse.contains("ci95") ? rmse.at("ci95")[1] : rmse.at("value");  // one seed alone has none
     EXPECT_NEAR(cases.at("errors").at("rmse").at("hi")[i].get<double>() / hi.get<double>(), 1, 1e-6);
   }
   EXPECT_GT(compared, 300);
@@ -99,8 +101,8 @@ TEST_F(FrontDigest, AGroupHoldsCasesOfOneSceneAndReference) {
     EXPECT_EQ(digest().at("scenes").at(g.at("scene").get<size_t>()).at("name"), report().cases[i].scene);
     EXPECT_EQ(g.at("visibility") == "none", report().cases[i].parameters.at("visibility") == "none");
   }
-  EXPECT_NEAR(groups[0].at("floor").at("smape").get<double>(), report().cases[0].accuracy->reference.noise_floor_smape,
-              1e-5);
+  EXPECT_NEAR(groups[0].at("floor").at("smape").get<double>(),
+              report().cases[0].accuracy->reference.noise_floor_smape, 1e-5);
   EXPECT_GT(groups[0].at("noise").at("method").get<double>(), 0);
 }
 

@@ -42,7 +42,8 @@ void History::add_case(const CaseResult& c, const Report& report) {
   const size_t now = reports_.size();
   for (const std::string& time : history_times()) {
     if (const std::optional<Summary> ms = time_of(c, time)) s.columns[time].of[now] = {ms->median, ms->ci95};
-    if (const TimeNoise* n = noise_of(report, c.scene, time)) s.noise[time] = std::max(s.noise[time], n->noise_floor);
+    if (const TimeNoise* n = noise_of(report, c.scene, time))
+      s.noise[time] = std::max(s.noise[time], n->noise_floor);
   }
   for (const std::string& metric : history_metrics()) {
     if (const auto error = error_of(c, metric)) s.columns[metric].of[now] = *error;
@@ -117,11 +118,13 @@ Json History::json(std::vector<std::string>* notes) const {
   }
   if (figures > kMostFigures) {
     std::erase_if(columns, [](const std::string& c) { return c != "method" && c != "smape"; });
-    notes->push_back(fmt::format(
-        "the history has {} series of {} reports: it shows the method's time and SMAPE alone", ids_.size(),
-        reports_.size()));
+    notes->push_back(
+        fmt::format("the history has {} series of {} reports: it shows the method's time and SMAPE alone",
+                    ids_.size(), reports_.size()));
   }
-  Json out = {{"reports", reports_}, {"columns", Json::array()}, {"series", Json::array()},
+  Json out = {{"reports", reports_},
+              {"columns", Json::array()},
+              {"series", Json::array()},
               {"changes", Json::array()}};
   for (const std::string& c : columns) {
     out["columns"].push_back({{"name", c},

@@ -149,8 +149,8 @@ std::vector<Opened> read_history(const std::vector<fs::path>& paths, Json* histo
     }
   }
   if (others > 0)
-    notes->push_back(fmt::format("{} of {} reports are of other machines than the newest and not in its history",
-                                 others, all.size()));
+    notes->push_back(fmt::format(
+        "{} of {} reports are of other machines than the newest and not in its history", others, all.size()));
   *history = made.json(notes);
   return newest;
 }
@@ -172,9 +172,8 @@ Dashboard make_dashboard(const DashboardOrder& order) {
     const Report& report = opened[i].report;
     reports.push_back(digest_of(report, short_name(opened[i].path)));
     const double share = room / static_cast<double>(opened.size() - i);
-    ChosenPictures chosen =
-        choose_pictures(report, report_file(opened[i].path).parent_path(), i,
-                        digest_groups(report).of_case, order.pictures, share);
+    ChosenPictures chosen = choose_pictures(report, report_file(opened[i].path).parent_path(), i,
+                                            digest_groups(report).of_case, order.pictures, share);
     for (Picture& p : chosen.list) {
       room -= static_cast<double>(p.base64.size()) / 1e6;
       out.pictures.push_back(std::move(p));
@@ -187,8 +186,8 @@ Dashboard make_dashboard(const DashboardOrder& order) {
   Json images = Json::array();
   for (const Picture& p : out.pictures) images.push_back(p.entry);
   if (left_out > 0)
-    notes.push_back(fmt::format("{} pictures are left out, for which {:.0f} MB are too few (--max-mb)", left_out,
-                                order.pictures.max_mb));
+    notes.push_back(fmt::format("{} pictures are left out, for which {:.0f} MB are too few (--max-mb)",
+                                left_out, order.pictures.max_mb));
   Json comparison = nullptr;
   if (opened.size() == 2) comparison = comparison_json(opened[0].report, opened[1].report);
   out.digest = {{"schema", "vsglbench.dashboard/1"},

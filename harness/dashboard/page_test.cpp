@@ -51,8 +51,7 @@ class PageTest : public testing::Test {
     fs::create_directories(folder / "images");
     for (size_t i = 0; i < made_.cases.size(); ++i) {
       Image image(8, 4);
-      for (size_t p = 0; p < image.pixels.size(); ++p)
-        image.pixels[p] = glm::vec3(float(p), float(i), 0.1f);
+      for (size_t p = 0; p < image.pixels.size(); ++p) image.pixels[p] = glm::vec3(float(p), float(i), 0.1f);
       const std::string file = fmt::format("images/{}.exr", i);
       write_exr(folder / file, image);
       write_exr(folder / "images/reference.exr", image);
@@ -64,9 +63,7 @@ class PageTest : public testing::Test {
     write(folder);
     return make_dashboard({{folder}, {}, {}, pictures});
   }
-  void write(const fs::path& folder) {
-    std::ofstream(folder / "report.json") << to_json(made_).dump();
-  }
+  void write(const fs::path& folder) { std::ofstream(folder / "report.json") << to_json(made_).dump(); }
 
   fs::path folder_;
   Report made_;
@@ -129,7 +126,8 @@ TEST_F(PageTest, AskedForCasesComeAsExrToo) {
   order.cases = {"box/vpl/*"};
   EXPECT_EQ(dashboard(report_with_pictures(), order).pictures[3].entry.at("format"), "exr");
   order.mode = PictureMode::png;
-  for (const Picture& p : dashboard(report_with_pictures(), order).pictures) EXPECT_EQ(p.entry.at("format"), "png");
+  for (const Picture& p : dashboard(report_with_pictures(), order).pictures)
+    EXPECT_EQ(p.entry.at("format"), "png");
   order.mode = PictureMode::none;
   EXPECT_TRUE(dashboard(report_with_pictures(), order).pictures.empty());
   EXPECT_THROW(picture_mode("jpg"), Error);
@@ -139,7 +137,8 @@ TEST_F(PageTest, PicturesKeepToTheirSize) {
   const fs::path folder = report_with_pictures();
   const Dashboard all = dashboard(folder);
   PictureOrder order;
-  order.max_mb = 1e-6 * static_cast<double>(all.pictures[0].base64.size() + all.pictures[1].base64.size() + 2);
+  order.max_mb =
+      1e-6 * static_cast<double>(all.pictures[0].base64.size() + all.pictures[1].base64.size() + 2);
   const Dashboard some = dashboard(folder, order);
   double total = 0;
   for (const Picture& p : some.pictures) total += static_cast<double>(p.base64.size());
@@ -184,7 +183,11 @@ TEST_F(PageTest, TwoAreComparedAndThreeAreAHistory) {
   std::vector<fs::path> folders;
   for (const char* name : {"a", "b", "c"}) {
     folders.push_back(report_with_pictures(name));
-    made_.created = std::string("2026-01-0") + (name[0] == 'a' ? '3' : name[0] == 'b' ? '1' : '2') + "T00:00:00Z";
+    made_.created = std::string("2026-01-0") +
+                    (name[0] == 'a'   ? '3'
+                     : name[0] == 'b' ? '1'
+                                      : '2') +
+                    "T00:00:00Z";
     made_.kernels = std::string(32, name[0]);
     write(folders.back());
   }

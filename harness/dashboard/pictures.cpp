@@ -32,7 +32,12 @@ class Chooser {
  public:
   Chooser(const Report& report, const fs::path& folder, size_t index, const std::vector<int>& groups,
           const PictureOrder& order, double room_mb)
-      : report_(report), folder_(folder), index_(index), groups_(groups), order_(order), room_(room_mb * 1e6) {}
+      : report_(report),
+        folder_(folder),
+        index_(index),
+        groups_(groups),
+        order_(order),
+        room_(room_mb * 1e6) {}
 
   ChosenPictures choose() {
     std::error_code ec;
@@ -77,7 +82,8 @@ class Chooser {
   }
 
   int scene(const CaseResult& c) const {
-    return static_cast<int>(std::ranges::find(report_.scenes, c.scene, &SceneReport::name) - report_.scenes.begin());
+    return static_cast<int>(std::ranges::find(report_.scenes, c.scene, &SceneReport::name) -
+                            report_.scenes.begin());
   }
 
   void add_reference(size_t i) {
@@ -110,7 +116,8 @@ class Chooser {
       if (!layers.colors.contains("")) throw fail(ErrorKind::output, "{}: lacks R, G and B", file.string());
       const Image& image = layers.colors.at("");
       const auto alpha = layers.scalars.find("A");
-      const std::vector<float> coverage = alpha == layers.scalars.end() ? std::vector<float>() : alpha->second;
+      const std::vector<float> coverage =
+          alpha == layers.scalars.end() ? std::vector<float>() : alpha->second;
       const bool exr = mode == PictureMode::exr;
       if (exr && embed(i, kind, "exr", image.width, image.height, encode_half_exr(image, coverage))) return;
       const auto factor = static_cast<float>(exposure(report_.cases[i]));
@@ -179,7 +186,8 @@ ChosenPictures choose_pictures(const Report& report, const fs::path& folder, siz
 }
 
 std::string base64(std::string_view bytes) {
-  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   out.reserve((bytes.size() + 2) / 3 * 4);
   for (size_t i = 0; i < bytes.size(); i += 3) {

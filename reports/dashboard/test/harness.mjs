@@ -36,10 +36,6 @@ export function report(name) {
   return JSON.parse(readFileSync(join(pages, name, "report.json"), "utf8"));
 }
 
-export function has(name) {
-  return existsSync(join(pages, `${name}.html`));
-}
-
 export async function close() {
   await browser?.close();
   browser = undefined;

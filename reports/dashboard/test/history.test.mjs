@@ -139,23 +139,6 @@ test("the figures of the lines are a table, too", async () => {
   assert.deepEqual((await rows.nth(20).locator("th, td").allTextContents()).slice(4, 8), ["vpl N=2", "33", "32.67", "33.33"]);
 });
 
-test("300 reports of 500 series: first view in 3 s, a filter in 1 s", async () => {
-  const many = madeHistory({ reports: 300, series: 500, steps: Array.from({ length: 70 }, (_, i) => [7 * i, 181, 1.1]), scenes: ["cornell", "ring514", "colonnade", "sponza"] });
-  const p = await page(many);
-  const first = await p.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime);
-  assert.equal(await p.locator(".history-panel").count(), 4);
-  const time = (id, value) => p.evaluate(([id, value]) => new Promise((done) => {
-    const start = performance.now(), select = document.getElementById(id);
-    select.value = value;
-    select.dispatchEvent(new Event("change"));
-    requestAnimationFrame(() => setTimeout(() => done(performance.now() - start)));
-  }), [id, value]);
-  const each = await time("hi-l", "each"), scene = await time("hi-scene", "cornell"), column = await time("hi-c", "smape");
-  console.log(`first view ${first.toFixed(0)} ms; every series ${each.toFixed(0)} ms, a scene ${scene.toFixed(0)} ms, a column ${column.toFixed(0)} ms`);
-  assert.match(await p.locator(".history-panel h3").first().textContent(), /cornell: SMAPE, 125 series/);
-  assert.ok(first < 3000 && Math.max(each, scene, column) < 1000);
-});
-
 test("dark and narrow are sound", async () => {
   await assertSound(await page(few(), { dark: true, width: 400, hash: "&hi.s=2" }));
 });
