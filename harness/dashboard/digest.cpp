@@ -71,16 +71,6 @@ std::string command_text(const Report& report) {
   return out;
 }
 
-Json pass_names(const Report& report) {
-  std::vector<std::string> names;
-  for (const CaseResult& c : report.cases) {
-    for (const PassTiming& p : c.passes) {
-      if (std::ranges::count(names, p.pass.name()) == 0) names.push_back(p.pass.name());
-    }
-  }
-  return names;
-}
-
 Json time_names(const Report& report) {
   Json out = Json::array();
   // What is asked for first comes first.
@@ -123,6 +113,21 @@ std::vector<std::string> methods_of(const Report& report) {
     if (std::ranges::count(methods, c.method) == 0) methods.push_back(c.method);
   }
   return methods;
+}
+
+std::vector<std::string> pass_names(const Report& report) {
+  std::vector<std::string> names;
+  for (const CaseResult& c : report.cases) {
+    size_t next = 0;  // where a pass belongs that comes after the last one
+    for (const PassTiming& p : c.passes) {
+      const auto at = std::ranges::find(names, p.pass.name());
+      if (at == names.end())
+        names.insert(names.begin() + static_cast<std::ptrdiff_t>(next++), p.pass.name());
+      else
+        next = static_cast<size_t>(at - names.begin()) + 1;
+    }
+  }
+  return names;
 }
 
 DigestGroups digest_groups(const Report& report) {

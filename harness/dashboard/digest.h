@@ -44,5 +44,8 @@ Json digest_papers(const Json& papers, const std::string& file);
 int scene_index(const Report& report, const std::string& name);
 // Methods in the order of the report's cases.
 std::vector<std::string> methods_of(const Report& report);
+// Passes of all cases in the frame's order: one that a case alone has stands after the one that comes before
+// it there.
+std::vector<std::string> pass_names(const Report& report);
 
 }  // namespace vsglbench

@@ -91,6 +91,12 @@ TEST_F(FrontDigest, PassesAddUpToTheFrame) {
   }
 }
 
+// Of no case does a pass come before one that stands earlier in the list.
+TEST_F(FrontDigest, PassesStandInTheFramesOrder) {
+  for (const Json& row : digest().at("cases").at("passes"))
+    EXPECT_TRUE(std::ranges::is_sorted(row.at("pass")));
+}
+
 TEST_F(FrontDigest, AGroupHoldsCasesOfOneSceneAndReference) {
   const Json& groups = digest().at("groups");
   const Json& of_case = digest().at("cases").at("group");

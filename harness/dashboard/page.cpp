@@ -179,7 +179,8 @@ Dashboard make_dashboard(const DashboardOrder& order) {
       out.pictures.push_back(std::move(p));
     }
     left_out += chosen.left_out;
-    notes.insert(notes.end(), chosen.notes.begin(), chosen.notes.end());
+    for (const std::string& note : chosen.notes)
+      notes.push_back(opened.size() == 1 ? note : short_name(opened[i].path) + ": " + note);
   }
   if (!order.papers.empty())
     claims = digest_papers(JsonDocument::load(order.papers, ErrorKind::config).root(), order.papers.string());

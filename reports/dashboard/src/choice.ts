@@ -16,7 +16,7 @@ export function groupName(report: Report, group: Group): string {
   const name = report.scenes[group.scene].name;
   const rivals = report.groups.filter((g) => g.scene === group.scene);
   const same = rivals.filter((g) => g.visibility === group.visibility);
-  const what = group.visibility === "none" ? "no visibility" : "visibility";
+  const what = group.visibility === "none" ? "without occlusion" : "with occlusion";
   return rivals.length === 1 ? name : `${name}, ${what}` + (same.length > 1 ? `, reference ${group.reference.slice(0, 6)}` : "");
 }
 

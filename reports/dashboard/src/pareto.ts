@@ -100,9 +100,9 @@ function relation([lo, hi]: [number, number], margin: number): Relation {
 }
 
 // The widest that the ratio of two numbers in these intervals can be.
-function ratioOf(aLo: number, aHi: number, bLo: number, bHi: number): [number, number] {
+function ratioOf(loA: number, hiA: number, loB: number, hiB: number): [number, number] {
   const least = 1e-300; // an error of 0, or an interval that reaches below it
-  return [Math.max(aLo, 0) / Math.max(bHi, least), Math.max(aHi, least) / Math.max(bLo, least)];
+  return [Math.max(loA, 0) / Math.max(hiB, least), Math.max(hiA, least) / Math.max(loB, least)];
 }
 
 function sameSeeds(a: Point, b: Point): boolean {

@@ -85,7 +85,7 @@ test("a filter changes the front to that of the cases left", async () => {
 test("metric, time and scene choose other columns of the report", async () => {
   const group = groups("rmse").find((g) => g.scene === "sponza" && g.visibility === "full");
   const page = await open("front");
-  await page.getByLabel("Scene").selectOption({ label: "sponza, visibility" });
+  await page.getByLabel("Scene").selectOption({ label: "sponza, with occlusion" });
   await page.locator("#metric").selectOption("rmse");
   const rows = await rowsOf(page, "The front");
   assert.equal(rows.length, group.front.length);

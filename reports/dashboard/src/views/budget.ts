@@ -98,7 +98,7 @@ export const budgetView: View = {
       h("div", { class: "grid" }, ...figures),
       missing.length > 0 ? h("p", { class: "note" }, `Not run, hence in the next part: ${missing.join("; ")}.`) : "",
       table<Row>({
-        caption: "Parts of the budgets", file: `${report.name}-budget`, rows, state: page.state, prefix: "bu",
+        caption: "Parts of the budgets", file: `${report.name}-budget`, rows, state: page.state, prefix: "budget",
         columns: [
           { key: "case", title: "case", value: (r) => label[r.budget.case], node: (r) => swatchOf(r.budget.case) },
           { key: "part", title: "part", value: (r) => r.part.name },

@@ -30,7 +30,7 @@ function verdict(page: Page, c: Comparison): HTMLElement {
 
 function controls(page: Page, c: Comparison, set: Apply): HTMLElement {
   const { state } = page, hidden = hiddenChanges(state);
-  const whats = [...new Set(c.rows.map((r) => r.what))];
+  const kinds = [...new Set(c.rows.map((r) => r.what))];
   const toggle = (word: string, on: boolean) => {
     const now = hiddenChanges(state);
     if (on) now.delete(word);
@@ -41,7 +41,7 @@ function controls(page: Page, c: Comparison, set: Apply): HTMLElement {
   const boxes = [...countsOf(c.rows)].filter(([, n]) => n > 0).map(([word, n]) =>
     h("span", { class: `change-${kindOf(word)}` }, checkbox(`${changeText(word)} ${n}`, `co-${word}`, !hidden.has(word), (on) => toggle(word, on))));
   return h("div", { class: "controls", role: "group", "aria-label": "Which rows" }, ...boxes,
-    choice("Of", "co-w", [["", "everything"], ...whats.map((w): [string, string] => [w, w])], state.get("co.w"), (v) => set({ "co.w": v })),
+    choice("Of", "co-w", [["", "everything"], ...kinds.map((w): [string, string] => [w, w])], state.get("co.w"), (v) => set({ "co.w": v })),
     choice("Order", "co-o", [["", "regressions first"], ["size", "by size"]], state.get("co.o"), (v) => set({ "co.o": v })),
     filterBox("Case", "co-q", state.get("co.q"), (v) => set({ "co.q": v })));
 }

@@ -24,8 +24,8 @@ interface Drawn {
   svg: SVGElement;
   x: (ms: number) => number;
   y: (error: number) => number;
-  unx: (px: number) => number;
-  uny: (px: number) => number;
+  toMs: (px: number) => number;
+  toError: (px: number) => number;
   frame: { x0: number; x1: number; y0: number; y1: number }; // pixels
   least: number; // error at the lower edge
 }
@@ -93,7 +93,7 @@ function plot(data: FrontData, label: string, width: number, height: number, box
   });
   const sx = element.scale("x")!, sy = element.scale("y")!;
   const [fx0, fx1] = sx.range as number[], [fy1, fy0] = sy.range as number[];
-  return { svg: pictureOf(element, label), x: sx.apply, y: (v) => sy.apply(v > 0 ? v : zero), unx: sx.invert!, uny: sy.invert!, frame: { x0: fx0, x1: fx1, y0: fy0, y1: fy1 }, least: box.y0 };
+  return { svg: pictureOf(element, label), x: sx.apply, y: (v) => sy.apply(v > 0 ? v : zero), toMs: sx.invert!, toError: sy.invert!, frame: { x0: fx0, x1: fx1, y0: fy0, y1: fy1 }, least: box.y0 };
 }
 
 // Each front point's number below it on the left, where the front has no neighbours; one that would cover another is left out.
@@ -229,7 +229,7 @@ export function frontChart(data: FrontData, reader: Reader): FrontChart {
   box.addEventListener("pointerleave", () => activate(null));
   zoomByDragging(box, {
     frame: () => drawn.frame,
-    zoom: (r) => zoom({ x0: drawn.unx(r.x0), x1: drawn.unx(r.x1), y0: drawn.uny(r.y1), y1: drawn.uny(r.y0) }),
+    zoom: (r) => zoom({ x0: drawn.toMs(r.x0), x1: drawn.toMs(r.x1), y0: drawn.toError(r.y1), y1: drawn.toError(r.y0) }),
     click: (px, py) => {
       const c = nearest(px, py);
       if (c !== null) reader.toggle(c);
