@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "base/printable.h"
 #include "cli/command.h"
 #include "dashboard/page.h"
@@ -13,17 +15,28 @@ struct DashboardCommand {
   DashboardOrder order;
   std::string images = "exr";
   fs::path out = "index.html";
+  std::optional<fs::path> papers, stability;
 };
 
 void make(DashboardCommand command) {
   if (command.out.empty()) throw fail(ErrorKind::usage, "--out: is empty; name the page's file");
   command.order.pictures.mode = picture_mode(command.images);
+  for (const auto& [name, path] :
+       {std::pair("--papers", command.papers), {"--stability", command.stability}}) {
+    if (path && path->empty())
+      throw fail(ErrorKind::usage, "{}: is empty; name a file, or leave it out", name);
+  }
+  command.order.papers = command.papers.value_or("");
+  command.order.stability = command.stability.value_or("");
   const Dashboard dashboard = make_dashboard(command.order);
   write_dashboard(dashboard, command.out);
   for (const auto& note : dashboard.digest.at("notes"))
     fmt::print(stderr, "note: {}\n", printable(note.get<std::string>()));
-  fmt::print("{}: {:.1f} MB, {} pictures\n", printable(command.out.string()),
-             static_cast<double>(fs::file_size(command.out)) / 1e6, dashboard.pictures.size());
+  std::error_code ec;  // a device has no size
+  const auto size = fs::file_size(command.out, ec);
+  const size_t pictures = dashboard.pictures.size();
+  fmt::print("{}: {:.1f} MB, {} picture{}\n", printable(command.out.string()),
+             ec ? 0.0 : static_cast<double>(size) / 1e6, pictures, pictures == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -46,8 +59,8 @@ void add_dashboard_command(CLI::App& app) {
   command->add_option("reports", options->order.reports, "report.json, or its folder; may come again")
       ->required();
   command->add_option("--out", options->out, "the page (default: index.html)");
-  command->add_option("--stability", options->order.stability, "what `stability --json` printed");
-  command->add_option("--papers", options->order.papers, "papers.json, which `reproduce` wrote");
+  command->add_option("--stability", options->stability, "what `stability --json` printed");
+  command->add_option("--papers", options->papers, "papers.json, which `reproduce` wrote");
   command->add_option("--images", options->images, "none, png, or exr (default): pictures in the page");
   command
       ->add_option("--case", options->order.pictures.cases,

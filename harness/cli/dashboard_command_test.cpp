@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "base/file.h"
+#include "base/json.h"
 #include "cli/cli_fixture.h"
 
 namespace vsglbench {
@@ -15,7 +16,7 @@ TEST_F(CliTest, DashboardWritesOnePage) {
                           kReports + "papers/lavapipe/papers.json"});
   EXPECT_EQ(f.code, 0) << f.err;
   EXPECT_TRUE(contains(f.out, page)) << f.out;
-  EXPECT_TRUE(contains(f.err, "no pictures beside it")) << f.err;
+  EXPECT_TRUE(contains(f.err, "no folder images/ beside the report")) << f.err;
   const std::string text = read_text(page);
   EXPECT_TRUE(contains(text, "id=\"data\">"));
   EXPECT_FALSE(contains(text, "<!--data-->"));
@@ -35,6 +36,20 @@ TEST_F(CliTest, DashboardRefusesWhatItCanNotShow) {
   const std::string report = cut + "/report.json";
   expect_refused(run({"dashboard", cut, "--out", out, "--papers", report}), 2, "no papers.json");
   expect_refused(run({"dashboard", cut, "--out", out, "--stability", report}), 2, "vsglbench.stability/1");
+  expect_refused(run({"dashboard", cut, "--out", out, "--papers", ""}), 2, "--papers: is empty");
+  const std::string cells = (folder_ / "cells.json").string();
+  for (const char* text : {"5", "[null]", R"([{"case": "a"}])"}) {
+    write_text(cells, std::string(
+                          R"({"schema": "vsglbench.stability/1", "ok_error": 1, "bad_error": 2, "cells": )") +
+                          text + "}");
+    expect_refused(run({"dashboard", cut, "--out", out, "--stability", cells}), 2, "cells.json:1: ");
+  }
+  const std::string orphan = (folder_ / "report.json").string();
+  Json json = Json::parse(read_text(report));
+  json["cases"][0]["scene"] = "nowhere";
+  write_text(orphan, json.dump());
+  expect_refused(run({"dashboard", orphan, "--out", out}), 2,
+                 "'nowhere', which is not in the report's scenes");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

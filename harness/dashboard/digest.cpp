@@ -107,6 +107,8 @@ int scene_index(const Report& report, const std::string& name) {
   return it == report.scenes.end() ? -1 : static_cast<int>(it - report.scenes.begin());
 }
 
+std::string config_name(const Report& report) { return text_or(report.config, "name"); }
+
 std::vector<std::string> methods_of(const Report& report) {
   std::vector<std::string> methods;
   for (const CaseResult& c : report.cases) {
@@ -170,7 +172,7 @@ Json digest_of(const Report& report, const std::string& file) {
   for (const SceneReport& s : report.scenes) scenes.push_back(scene_json(s));
   return {
       {"file", file},
-      {"name", text_or(report.config, "name")},
+      {"name", config_name(report)},
       {"description", text_or(report.config, "description")},
       {"measure", text_or(report.config, "measure").empty() ? "frame" : text_or(report.config, "measure")},
       {"created", report.created},

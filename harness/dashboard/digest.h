@@ -42,6 +42,8 @@ Json digest_papers(const Json& papers, const std::string& file);
 
 // Index of a scene in a report's list; -1: not there.
 int scene_index(const Report& report, const std::string& name);
+// Empty where the config has none.
+std::string config_name(const Report& report);
 // Methods in the order of the report's cases.
 std::vector<std::string> methods_of(const Report& report);
 // Passes of all cases in the frame's order: one that a case alone has stands after the one that comes before

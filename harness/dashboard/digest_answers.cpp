@@ -162,6 +162,9 @@ Json digest_claims(const Report& report) {
 
 Json digest_papers(const Json& papers, const std::string& file) {
   Json out = Json::array();
+  if (!papers.is_object() || papers.value("schema", Json()) != kPapersSchema)
+    throw fail(ErrorKind::config, "{}: no papers.json of `vsglbench reproduce`: its schema is not {}", file,
+               kPapersSchema);
   try {
     for (const ClaimTrial& t : trials_in(papers)) {
       out.push_back({{"claim", t.claim},
@@ -178,7 +181,7 @@ Json digest_papers(const Json& papers, const std::string& file) {
                      {"pairs", 0},
                      {"why", t.figures}});
     }
-  } catch (const Json::exception& e) {
+  } catch (const std::exception& e) {
     throw fail(ErrorKind::config, "{}: no papers.json of `vsglbench reproduce`: {}", file, e.what());
   }
   return out;

@@ -162,8 +162,11 @@ TEST(Digest, TellsFlickerFailuresAndEffects) {
 }
 
 TEST(Digest, PapersThatAreNoneAreRefused) {
-  EXPECT_THROW(digest_papers(Json({{"exhibits", {{{"trials", {1}}}}}}), "x.json"), Error);
+  EXPECT_THROW(
+      digest_papers(Json({{"schema", "vsglbench.papers/1"}, {"exhibits", {{{"trials", {1}}}}}}), "x.json"),
+      Error);
   EXPECT_THROW(digest_papers(Json::array(), "x.json"), Error);
+  EXPECT_THROW(digest_papers(Json({{"schema", "other/1"}, {"exhibits", Json::array()}}), "x.json"), Error);
   const Json papers = Json::parse(read_text(kReports + "papers/lavapipe/papers.json"));
   const Json claims = digest_papers(papers, "papers.json");
   size_t holds = 0, told = 0;

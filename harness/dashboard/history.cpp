@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dashboard/columns.h"
+#include "dashboard/digest.h"
 #include "report/case_names.h"
 #include "report/noise.h"
 
@@ -79,7 +80,7 @@ void History::add(const Report& report, const std::string& file) {
     add_changes(comparison);
   }
   reports_.push_back({{"file", file},
-                      {"name", report.config.value("name", "")},
+                      {"name", config_name(report)},
                       {"created", report.created},
                       {"commit", report.git.commit == "unknown" ? "" : report.git.commit},
                       {"dirty", report.git.dirty},

@@ -89,15 +89,43 @@ Json comparison_json(const Report& base, const Report& now) {
           {"rows", std::move(rows)}};
 }
 
+// A cell as to_json(StabilityCell) writes it.
+bool is_cell(const Json& cell) {
+  if (!cell.is_object()) return false;
+  for (const char* key : {"case", "method", "diffuse", "status", "where", "why"}) {
+    if (!cell.contains(key) || !cell.at(key).is_string()) return false;
+  }
+  const auto status = cell.at("status").get<std::string>();
+  const Json error = cell.value("error", Json());
+  return (error.is_number() || error == "infinite") &&
+         (status == "ok" || status == "bias" || status == "bad" || status == "left out");
+}
+
 Json stability_json(const fs::path& path) {
   const JsonDocument doc = JsonDocument::load(path, ErrorKind::config);
   const Json& root = doc.root();
-  if (!root.is_object() || root.value("schema", Json()) != "vsglbench.stability/1" || !root.contains("cells"))
+  if (!root.is_object() || root.value("schema", Json()) != "vsglbench.stability/1")
     throw doc.error("", "no report of `vsglbench stability --json`: its schema is not vsglbench.stability/1");
-  return {{"counts", root.value("counts", Json::object())},
-          {"ok_error", root.value("ok_error", Json())},
-          {"bad_error", root.value("bad_error", Json())},
-          {"cells", root.at("cells")}};
+  const Json cells = root.value("cells", Json());
+  if (!cells.is_array())
+    throw doc.error("", "'cells' is no list; make it anew with `vsglbench stability --json`");
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (!is_cell(cells[i]))
+      throw doc.error(fmt::format("/cells/{}", i), "no cell of `vsglbench stability --json`");
+  }
+  for (const char* key : {"ok_error", "bad_error"}) {
+    if (!root.value(key, Json()).is_number()) throw doc.error("", fmt::format("'{}' is no number", key));
+  }
+  return {{"ok_error", root.at("ok_error")}, {"bad_error", root.at("bad_error")}, {"cells", cells}};
+}
+
+// A page can't say whose scene it is otherwise.
+void check_scenes(const Report& report, const std::string& file) {
+  for (const CaseResult& c : report.cases) {
+    if (scene_index(report, c.scene) < 0)
+      throw fail(ErrorKind::config, "{}: case '{}' is of scene '{}', which is not in the report's scenes",
+                 file, c.id, c.scene);
+  }
 }
 
 // Temporal entries learn which pictures are theirs.
@@ -170,6 +198,7 @@ Dashboard make_dashboard(const DashboardOrder& order) {
   double room = order.pictures.max_mb;
   for (size_t i = 0; i < opened.size(); ++i) {
     const Report& report = opened[i].report;
+    check_scenes(report, report_file(opened[i].path).string());
     reports.push_back(digest_of(report, short_name(opened[i].path)));
     const double share = room / static_cast<double>(opened.size() - i);
     ChosenPictures chosen = choose_pictures(report, report_file(opened[i].path).parent_path(), i,
@@ -187,7 +216,7 @@ Dashboard make_dashboard(const DashboardOrder& order) {
   Json images = Json::array();
   for (const Picture& p : out.pictures) images.push_back(p.entry);
   if (left_out > 0)
-    notes.push_back(fmt::format("{} pictures are left out, for which {:.0f} MB are too few (--max-mb)",
+    notes.push_back(fmt::format("{} pictures are left out, for which {:.3g} MB are too few (--max-mb)",
                                 left_out, order.pictures.max_mb));
   Json comparison = nullptr;
   if (opened.size() == 2) comparison = comparison_json(opened[0].report, opened[1].report);

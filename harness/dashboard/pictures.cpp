@@ -42,10 +42,15 @@ class Chooser {
   ChosenPictures choose() {
     std::error_code ec;
     if (!fs::exists(folder_ / "images", ec)) {
-      out_.notes.push_back("the report has no pictures beside it");
+      out_.notes.push_back("there is no folder images/ beside the report, hence no picture in the page");
       return std::move(out_);
     }
     const std::set<size_t> exact = exact_cases();
+    for (const std::string& glob : order_.cases) {
+      const auto matches = [&](const CaseResult& c) { return matches_glob(c.id, glob); };
+      if (std::ranges::none_of(report_.cases, matches))
+        out_.notes.push_back("no case matches --case " + glob);
+    }
     for (const size_t i : exact) add_reference(i);
     for (const size_t i : exact) add_case(i, order_.mode);
     for (size_t i = 0; i < report_.cases.size(); ++i) {
@@ -104,6 +109,9 @@ class Chooser {
     }
     try {
       if (!is_below(path)) throw fail(ErrorKind::config, "{}: is outside of the report's folder", path);
+      // A pipe would be waited for.
+      if (fs::exists(folder_ / path) && !fs::is_regular_file(folder_ / path))
+        throw fail(ErrorKind::output, "{}: is no file", path);
       add(folder_ / path);
     } catch (const std::exception& e) {
       if (missing_++ < kMostNotes) out_.notes.emplace_back(e.what());

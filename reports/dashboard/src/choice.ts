@@ -28,21 +28,22 @@ export function timesThere(report: Report): Report["times"] {
   return report.times.filter((t) => report.cases.times[t.name]?.value.some((v) => v !== null));
 }
 
+// Of a report without any error, or time, one without a name.
 export function metricOf({ report, state }: Page): Metric {
   const there = metricsThere(report);
-  return there.find((m) => m.name === state.get("m")) ?? there[0] ?? report.metrics[0];
+  return there.find((m) => m.name === state.get("m")) ?? there[0] ?? { name: "", title: "no error", unit: "" };
 }
 
 export function timeOf({ report, state }: Page): Report["times"][number] {
   const there = timesThere(report);
-  return there.find((t) => t.name === state.get("t")) ?? there.find((t) => t.name === "method") ?? there[0] ?? report.times[0];
+  return there.find((t) => t.name === state.get("t")) ?? there.find((t) => t.name === "method") ?? there[0] ?? { name: "", words: "no time" };
 }
 
 export function errorsOf(page: Page): Cases["errors"][string] {
-  return page.report.cases.errors[metricOf(page).name];
+  return page.report.cases.errors[metricOf(page).name] ?? { value: [], lo: [], hi: [], heavy: [], seeds: [] };
 }
 export function timesOf(page: Page): Estimates {
-  return page.report.cases.times[timeOf(page).name];
+  return page.report.cases.times[timeOf(page).name] ?? { value: [], lo: [], hi: [] };
 }
 
 export function hiddenMethods({ state }: Page): Set<string> {

@@ -188,7 +188,6 @@ export interface Comparison {
 }
 
 export interface Stability {
-  counts: Record<string, number>;
   ok_error: number;
   bad_error: number;
   cells: { case: string; method: string; diffuse: string; status: "ok" | "bias" | "bad" | "left out"; error: number | "infinite"; where: string; why: string }[];

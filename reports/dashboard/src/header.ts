@@ -6,7 +6,7 @@ import type { Page } from "./view";
 function themeButton({ state }: Page): HTMLElement {
   const asked = state.get("d") || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   const other = asked === "dark" ? "light" : "dark";
-  return h("button", { type: "button", id: "theme", click: () => state.set({ d: other }) }, other === "dark" ? "Dark" : "Light");
+  return h("button", { type: "button", id: "theme", title: `Show the page ${other}`, click: () => state.set({ d: other }) }, other === "dark" ? "Dark" : "Light");
 }
 
 export function header(page: Page): HTMLElement {
@@ -20,10 +20,9 @@ export function header(page: Page): HTMLElement {
     ["frame", `${report.width} × ${report.height}`],
     ["cases", `${report.cases.id.length}, in ${figure(report.wall_s / 60)} min`],
   ];
-  const which = digest.reports.length < 2 ? null : choice("Report", "report", digest.reports.map((r, i) => [String(i), `${r.name}, ${r.commit.slice(0, 7)}${i === 0 ? " (base)" : ""}`]), String(digest.reports.indexOf(report)), (r) => state.set({ r: r === "0" ? "" : r, g: "", c: "" }));
+  const which = digest.reports.length < 2 ? null : choice("Report", "report", digest.reports.map((r, i) => [String(i), `${r.name}, ${r.commit.slice(0, 7)}${i === 0 ? " (base)" : ""}`]), String(digest.reports.indexOf(report)), (r) => state.set({ r: Number(r) === digest.reports.length - 1 ? "" : r, g: "", c: "" }));
   const warnings = [...digest.notes];
   if (!report.complete) warnings.unshift("The report is not complete: the run was ended early.");
-  if (digest.images_left_out > 0) warnings.push(`${digest.images_left_out} images were left out for the page's size.`);
   return h(
     "div", {},
     h("div", { class: "title" }, h("h1", {}, report.name), h("p", {}, report.description), which, themeButton(page)),

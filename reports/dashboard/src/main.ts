@@ -41,7 +41,7 @@ function start(digest: Digest, app: HTMLElement): void {
   app.append(head, nav, bar, root);
 
   const draw = () => {
-    const report = digest.reports[state.number("r", 0)] ?? digest.reports[0];
+    const report = digest.reports[state.number("r", -1)] ?? digest.reports[digest.reports.length - 1]; // the newest
     const page: Page = { digest, report, state };
     const focused = document.activeElement?.id;
     document.documentElement.dataset.theme = state.get("d");

@@ -4,7 +4,7 @@
 // Keys that all views share:
 //   v  view              g  index of Report.groups    m  metric       t  time
 //   x  methods hidden, by name, with commas           c  indices of selected cases, with commas
-//   r  index in Digest.reports             d  dark or light
+//   r  index in Digest.reports; the last where it is not given             d  dark or light
 // Keys of one view begin with its id's first two letters: "im.exposure".
 export class State {
   private values = new URLSearchParams();

@@ -63,6 +63,9 @@ function committed() {
   copyFileSync(join(source, "reports/papers/lavapipe/papers.json"), join(folder("front"), "papers.json"));
   page("front", join(pages, "front"), "--papers", join(pages, "front/papers.json"), "--stability", join(pages, "front/stability.json"));
   page("flicker", join(pages, "flicker"));
+  // Without images and errors: generation alone was measured.
+  copyFileSync(join(source, "reports/mfis16-table1-lavapipe/report.json"), join(folder("generation"), "report.json"));
+  page("generation", join(pages, "generation"));
 }
 
 // Two, the second with one case a tenth slower and other kernels.

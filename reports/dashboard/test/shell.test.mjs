@@ -4,7 +4,7 @@ import { after, test } from "node:test";
 import { close, open, report } from "./harness.mjs";
 
 after(close);
-const names = ["front", "flicker", "history", "images", "pair"];
+const names = ["front", "flicker", "generation", "history", "images", "pair"];
 
 for (const name of names) {
   for (const width of [1280, 400]) {

@@ -11,12 +11,14 @@ function columnsOf(page: Page): Column<number>[] {
   const { cases } = report;
   const metric = metricOf(page), time = timeOf(page);
   const ms = timesOf(page), error = errorsOf(page);
+  const timeColumn: Column<number> = { key: "ms", title: time.name, unit: "ms", hint: time.words, value: (c) => ms.value[c], text: (c) => figure(ms.value[c]) };
+  const errorColumn: Column<number> = { key: "error", title: metric.title, unit: metric.unit, value: (c) => error.value[c], text: (c) => figure(error.value[c]) };
   const columns: Column<number>[] = [
     { key: "case", title: "case", value: (c) => cases.label[c], node: (c) => swatch(lookOf(digest, methodOf(report, c))) },
     { key: "scene", title: "scene", value: (c) => report.scenes[cases.scene[c]].name },
     { key: "status", title: "status", value: (c) => cases.status[c] },
-    { key: "ms", title: time.name, unit: "ms", hint: time.words, value: (c) => ms.value[c], text: (c) => figure(ms.value[c]) },
-    { key: "error", title: metric.title, unit: metric.unit, value: (c) => error.value[c], text: (c) => figure(error.value[c]) },
+    ...(time.name === "" ? [] : [timeColumn]),
+    ...(metric.name === "" ? [] : [errorColumn]),
     ...report.extra.map((e): Column<number> => ({
       key: e.name, title: e.name.replaceAll("_", " "), unit: e.unit, hint: e.words,
       value: (c) => cases.extra[e.name]?.[c] ?? null,

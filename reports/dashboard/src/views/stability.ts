@@ -12,7 +12,7 @@ function countsLine(s: Stability): HTMLElement {
   const percent = (v: number) => `${Number((100 * v).toPrecision(3))} %`;
   const out = h("p", { class: "counts" });
   for (const status of statuses)
-    out.append(h("span", { class: statusClass(status) }, `${statusGlyph[status]} ${s.counts[status] ?? 0} ${status}`), " ");
+    out.append(h("span", { class: statusClass(status) }, `${statusGlyph[status]} ${s.cells.filter((c) => c.status === status).length} ${status}`), " ");
   out.append(h("span", { class: "soft" }, `ok: within ${percent(s.ok_error)} of double precision; bad: off by more than ${percent(s.bad_error)}, or impossible; left out: the case means nothing to the method`));
   return out;
 }
