@@ -31,7 +31,11 @@ function clean(page) {
 }
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 // The page writes it a quarter of a second after a change.
-const written = (page) => page.waitForTimeout(400);
+// By the page's own clock, which stands still while a busy machine draws.
+const written = async (page) => {
+  await page.evaluate(() => new Promise((done) => setTimeout(done, 400)));
+  await settle(page);
+};
 const state = async (page, key) => {
   await written(page);
   return page.evaluate((k) => new URLSearchParams(location.hash.slice(1)).get(k), key);
