@@ -143,7 +143,8 @@ class Chooser {
 
   bool embed(size_t i, const std::string& kind, const char* format, uint32_t width, uint32_t height,
              const std::string& bytes) {
-    const double size = 4.0 * static_cast<double>((bytes.size() + 2) / 3);
+    const size_t groups = (bytes.size() + 2) / 3;
+    const double size = 4.0 * static_cast<double>(groups);
     if (size > room_) return false;
     room_ -= size;
     const CaseResult& c = report_.cases[i];
