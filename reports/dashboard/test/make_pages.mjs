@@ -80,7 +80,7 @@ function pair() {
   page("pair", join(pages, "pair-base"), join(pages, "pair"));
 }
 
-// 300 reports with 0.4 % of noise: from the 181st a case of `cut` or the first one is 3 % slower, and from the 241st
+// 300 reports with 0.4 % of noise: from the 181st the first case is 3 % slower, and from the 241st
 // another is 8 % faster. history/report.json is the newest; history/steps.json says which.
 function history() {
   const base = read(join(source, "reports/gate-lavapipe/report.json"));
