@@ -162,7 +162,7 @@ size_t Frame::memory_bytes() const {
   const uint64_t pixels = parts_.halves.texels(Half::gbuffer);
   if (parts_.parameters.visibility == Visibility::exact)
     total += light_count() * ((pixels + 31) / 32) * sizeof(uint32_t);  // of each light, whole words
-  return total + pixels * rgba;
+  return total + pixels * rgba * (parts_.parameters.interleave > 1 ? 2 : 1);
 }
 
 }  // namespace vsglbench

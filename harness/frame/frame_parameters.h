@@ -37,6 +37,8 @@ struct FrameParameters {
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next
   // [VSGL14 §5].
   uint32_t progressive = 1;
+  // The pixels of every block of so many by so many share the lights out; 1: each takes all.
+  uint32_t interleave = 1;
   Lattice lattice = Lattice::fixed;  // of an animation: read by who renders its frames
   // What is not among them is left out: passes, channels, lobes and branches of shaders
   // (frame/permutation.h).

@@ -33,7 +33,7 @@ std::vector<const LightGenerator*> generators_of(const FrameParts& parts) {
 
 // The half that a pass works on.
 std::optional<Half> half_of(const PassId& pass) {
-  const bool shades = pass.stage == PassStage::shade && pass.step.empty();
+  const bool shades = pass.stage == PassStage::shade && (pass.step.empty() || pass.step == "join");
   return shades || pass.stage == PassStage::direct ? Half::gbuffer : pass.half;
 }
 
@@ -50,6 +50,7 @@ FrameOutputs::NamedBuffer named(const FrameParts& parts, const PassId& pass, con
     }
   }
   if (is(parts.shade.indirect())) return {"indirect", parts.halves.texels(Half::gbuffer) * sizeof(glm::vec4)};
+  if (is(parts.shade.shaded())) return {"shares", parts.halves.texels(Half::gbuffer) * sizeof(glm::vec4)};
   return {"", buffer.size()};
 }
 

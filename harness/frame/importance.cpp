@@ -114,7 +114,7 @@ void ImportancePass::gather(Recorder& r) const {
     } push{f.emitter, range};
     if (range.first > 0) r.barrier();
     r.dispatch(kernel, {f.maps, lights_->buffer(), pdf(Half::rsm)}, push, groups_for(f.emitter.width, 8),
-               groups_for(f.emitter.height, 8));
+               groups_for(f.emitter.height, 32));
   }
   build_mips(r, Half::rsm);
 }

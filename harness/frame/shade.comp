@@ -1,9 +1,15 @@
 // Indirect radiance of every pixel: the sum over lights, each through its visibility.
 // VISIBILITY 0: none; 1: bit matrix; 2: shadow maps. BIAS_REDUCTION 1: where a light's lobes are smooth
-// against the disk it is seen as, its exact BRDFs [VSGL14 §3.3].
+// against the disk it is seen as, its exact BRDFs [VSGL14 §3.3]. INTERLEAVE k: the k × k pixels of a block
+// share the lights out: the c-th of them takes lights c, c + k², …, each k² times as bright (Keller and
+// Heidrich 2001); a workgroup takes pixels of one c. join.comp makes whole sums of them.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #include "types.h"
 layout(local_size_x = 8, local_size_y = 8) in;
+#ifndef COLUMN
+#define COLUMN 4  // texels of an invocation
+#endif
 #include "field_maps.glsl"
 #include "field.glsl"
 #include "light_shading.glsl"
@@ -11,6 +17,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #ifndef BIAS_REDUCTION
 #define BIAS_REDUCTION 0
 #endif
+#ifndef INTERLEAVE
+#define INTERLEAVE 1
+#endif
+#define SETS (INTERLEAVE * INTERLEAVE)
 layout(set = 0, binding = AFTER_MAPS, scalar) readonly buffer Lights { Light lights[]; };
 // rgb: radiance; a: luminance that a clamp removed, or the number of lights that bias reduction cancelled.
 layout(set = 0, binding = AFTER_MAPS + 1, std430) buffer Indirect { vec4 indirect[]; };
@@ -46,8 +56,7 @@ layout(set = 0, binding = AFTER_MAPS + 2, scalar) readonly buffer Texels { Vpl t
 #endif
 
 // rgb and a as `Indirect` has them.
-vec4 reflected(Shader shader, uint k, uint pixel) {
-  Light light = scaled(lights[k], radius2_scale);
+vec4 reflected(Shader shader, Light light, uint k, uint pixel) {
 #if BIAS_REDUCTION
   if (light.power > 0.0 && texels[k].power > 0.0 && is_cancelled(shader, light, alpha))
     return vec4(shade_cancelled(shader, light, texels[k]), 1.0);
@@ -57,19 +66,40 @@ vec4 reflected(Shader shader, uint k, uint pixel) {
   return vec4(sum, removed);
 }
 
+// An invocation takes COLUMN pixels, one below the other, so that a light that is loaded serves them
+// all.
 void main() {
-  uvec2 at = gl_GlobalInvocationID.xy;
-  if (at.x >= emitter.width || at.y >= emitter.height) return;
-  uint pixel = at.y * emitter.width + at.x;
-  Texel t;
-  bool surface = load_texel(emitter, ivec2(at), t);
-  vec4 sum = vec4(0.0);
-  Shader shader = make_shader(t.surface);
-  for (uint k = first; k < first + count; ++k) {
-    vec4 light = reflected(shader, k, pixel);
-    float seen = visible(k, pixel, t.surface.position);
-    sum += vec4(seen * light.rgb, (BIAS_REDUCTION == 1 ? 1.0 : seen) * light.a);
+  uvec2 corner = gl_WorkGroupID.xy * uvec2(8u, 8u * COLUMN) + gl_LocalInvocationID.xy;
+  uint set = gl_WorkGroupID.z;
+  uint pixels[COLUMN];
+  bool surface[COLUMN], inside[COLUMN];
+  vec3 positions[COLUMN];
+  Shader shaders[COLUMN];
+  vec4 sums[COLUMN];
+  [[unroll]] for (uint j = 0u; j < COLUMN; ++j) {
+    uvec2 at = (corner + uvec2(0u, 8u * j)) * INTERLEAVE + uvec2(set % INTERLEAVE, set / INTERLEAVE),
+          last = uvec2(emitter.width, emitter.height) - 1u;
+    inside[j] = at.x <= last.x && at.y <= last.y;
+    at = min(at, last);
+    Texel t;
+    surface[j] = load_texel(emitter, ivec2(at), t);
+    pixels[j] = at.y * emitter.width + at.x;
+    positions[j] = t.surface.position;
+    shaders[j] = make_shader(t.surface);
+    sums[j] = vec4(0.0);
   }
-  vec4 before = accumulate != 0u ? indirect[pixel] : vec4(0.0);
-  indirect[pixel] = surface ? before + weight * sum : vec4(0.0);
+  uint own = first + (set + SETS - first % SETS) % SETS;
+  for (uint k = own; k < first + count; k += SETS) {
+    Light light = scaled(lights[k], radius2_scale);
+    [[unroll]] for (uint j = 0u; j < COLUMN; ++j) {
+      vec4 sum = reflected(shaders[j], light, k, pixels[j]);
+      float seen = visible(k, pixels[j], positions[j]);
+      sums[j] += vec4(seen * sum.rgb, (BIAS_REDUCTION == 1 ? 1.0 : seen) * sum.a);
+    }
+  }
+  [[unroll]] for (uint j = 0u; j < COLUMN; ++j) {
+    if (!inside[j]) continue;
+    vec4 before = accumulate != 0u ? indirect[pixels[j]] : vec4(0.0);
+    indirect[pixels[j]] = surface[j] ? before + float(SETS) * weight * sums[j] : vec4(0.0);
+  }
 }

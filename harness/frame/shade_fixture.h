@@ -110,10 +110,12 @@ class ShadeTest : public ::testing::Test {
   }
 
   // shade.comp as `defines` says, without visibility. Of `push`, emitter is set here, and count where it is
-  // 0. `texels`: of the bias reduction.
+  // 0. `texels`: of the bias reduction. `block`: INTERLEAVE.
   template <class Light>
   std::vector<glm::vec4> shade(const std::vector<Light>& lights, ShaderDefines defines = {},
-                               ShadePush push = {}, const std::vector<gpu::Vpl>& texels = {}) {
+                               ShadePush push = {}, const std::vector<gpu::Vpl>& texels = {},
+                               uint32_t block = 1) {
+    if (block > 1) defines["INTERLEAVE"] = fmt::format("{}u", block);
     defines.insert({{"LIGHT_VPL", std::is_same_v<Light, gpu::Vpl> ? "1" : "0"}, {"VISIBILITY", "0"}});
     const Kernel& kernel = kernels().get(data_root() / "harness" / "frame" / "shade.comp", defines);
     const Buffer light_buffer = upload(lights), out(device(), "out", pixels_.size() * sizeof(glm::vec4));
@@ -126,7 +128,8 @@ class ShadeTest : public ::testing::Test {
     Recorder recorder(device());
     recorder.begin();
     recorder.pass({.step = "shade"}, [&] {
-      recorder.dispatch(kernel, bound, push, groups_for(kWidth, 8), groups_for(kHeight, 8));
+      recorder.dispatch(kernel, bound, push, groups_for(kWidth, 8 * block), groups_for(kHeight, 32 * block),
+                        block * block);
     });
     recorder.submit_and_wait();
     return out.download<glm::vec4>(pixels_.size());

@@ -24,6 +24,11 @@ const Buffer& ShadePass::indirect() const {
                                     halves_.texels(Half::gbuffer) * sizeof(glm::vec4));
 }
 
+const Buffer& ShadePass::shaded() const {
+  if (parameters_.interleave == 1) return indirect();
+  return stage_.memory.shares.get(stage_.device, "shares", halves_.texels(Half::gbuffer) * sizeof(glm::vec4));
+}
+
 bool ShadePass::reduces_bias() const {
   return lights_.kind() == LightKind::vsgl && parameters_.bias_reduction > 0;
 }
@@ -77,6 +82,8 @@ void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
   // All kinds of shadow maps are read alike.
   defines["VISIBILITY"] = std::to_string(static_cast<int>(std::min(parameters_.visibility, Visibility::ism)));
   if (reduces_bias()) defines["BIAS_REDUCTION"] = "1";
+  const uint32_t block = parameters_.interleave;
+  if (block > 1) defines["INTERLEAVE"] = fmt::format("{}u", block);
   const Kernel& kernel = stage_.kernels.get(frame_kernel("shade.comp"), defines);
   ShadePush push{.emitter = camera.emitter,
                  .words = groups_for(camera.texels(), 32),
@@ -85,7 +92,7 @@ void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
                  .radius2_scale = std::pow(4.0f / 9.0f, static_cast<float>(iteration)),
                  .weight = 1.0f / static_cast<float>(parameters_.progressive),
                  .alpha = parameters_.bias_reduction};
-  Bindings bound = {camera.maps, lights_.buffer(), indirect()};
+  Bindings bound = {camera.maps, lights_.buffer(), shaded()};
   if (needs_light_texels()) {
     const Buffer& texels = light_texels(r);
     if (reduces_bias()) bound.add(texels);
@@ -99,9 +106,20 @@ void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
       if (range.first > 0) r.barrier();
       Bindings with_bits = bound;
       if (!sight.bits.empty()) with_bits.add(*sight.bits[range.first / sight.most_lights]);
-      r.dispatch(kernel, with_bits, push, groups_for(camera.emitter.width, 8),
-                 groups_for(camera.emitter.height, 8));
+      r.dispatch(kernel, with_bits, push, groups_for(camera.emitter.width, 8 * block),
+                 groups_for(camera.emitter.height, 32 * block), block * block);
     }
+  });
+  if (block > 1 && iteration + 1 == parameters_.progressive) join(r);
+}
+
+void ShadePass::join(Recorder& r) const {
+  const Field camera = halves_.field(Half::gbuffer, nullptr);
+  ShaderDefines defines = permutation(parameters_.effects, Half::gbuffer, Half::rsm);
+  defines["INTERLEAVE"] = fmt::format("{}u", parameters_.interleave);
+  r.pass({PassStage::shade, std::nullopt, "join"}, [&] {
+    r.dispatch(stage_.kernels.get(frame_kernel("join.comp"), defines), {camera.maps, shaded(), indirect()},
+               camera.emitter, groups_for(camera.emitter.width, 8), groups_for(camera.emitter.height, 8));
   });
 }
 

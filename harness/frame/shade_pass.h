@@ -30,11 +30,14 @@ class ShadePass {
   void trace();
   // After the scene has moved: the next lights are traced though they be the last ones.
   void forget() { traced_.clear(); }
-  // Passes shade.texels, visibility.* and shade; iterations after the first add to what is there.
+  // Passes shade.texels, visibility.* and shade; iterations after the first add to what is there. After the
+  // last, shade.join where pixels share the lights out.
   void record(Recorder& recorder, uint32_t seed, uint32_t iteration);
 
   // vec4 a pixel: radiance, and what shade.comp says of it.
   const Buffer& indirect() const;
+  // What shade.comp writes: the same, unless pixels share the lights out and are still to be joined.
+  const Buffer& shaded() const;
   bool reduces_bias() const;
 
  private:
@@ -51,6 +54,7 @@ class ShadePass {
   };
   Sight see(Recorder& recorder, ShadePush* push, Bindings* bound) const;
   Sight upload_bits(uint32_t words) const;
+  void join(Recorder& recorder) const;
 
   Stage& stage_;
   const Halves& halves_;

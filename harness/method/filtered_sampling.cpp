@@ -44,13 +44,13 @@ MomentBuffers MomentPyramid::build(Steps& steps, const Field& field) {
     moments.buffers.push_back(&context_.scratch(name, pyramid_texels(w, h) * 16));
   Recorder& r = steps.recorder();
   steps.pass("resolve", [&] {
-    r.dispatch(resolve_, {field.maps, moments}, field.emitter, groups_for(w, 8), groups_for(h, 8));
+    r.dispatch(resolve_, {field.maps, moments}, field.emitter, groups_for(w, 16), groups_for(h, 16));
   });
   steps.pass("mipmap", [&] {
-    for (uint32_t level = 1; level <= pyramid_top(w, h); ++level) {
+    for (uint32_t level = 2; level <= pyramid_top(w, h); level += 2) {
       const struct { uint32_t width, height, level; } push{w, h, level};
-      r.dispatch(mip_, {moments}, push, groups_for(groups_for(w, 1u << level), 8),
-                 groups_for(groups_for(h, 1u << level), 8));
+      r.dispatch(mip_, {moments}, push, groups_for(groups_for(w, 2u << level), 8),
+                 groups_for(groups_for(h, 2u << level), 8));
       r.barrier();
     }
   });

@@ -7,7 +7,7 @@
 namespace vsglbench {
 namespace {
 
-constexpr uint32_t kCodeBits = 31;  // shaders/kd_codes.comp
+constexpr uint32_t kCodeBits = 31;  // shaders/kd_codes.comp: 30, and what is no centre
 
 }  // namespace
 
@@ -17,6 +17,7 @@ ShaderDefines KdTree::defines(int dimensions) {
 
 KdTree::KdTree(MethodContext& context, int dimensions)
     : context_(context),
+      few_(context.shared_kernel("kd_small.comp", defines(dimensions))),
       bounds_(context.shared_kernel("kd_bounds.comp")),
       codes_(context.shared_kernel("kd_codes.comp", defines(dimensions))),
       sort_(context),
@@ -27,19 +28,34 @@ void KdTree::build(Recorder& r, const Buffer& centres, uint32_t count) {
   if (count == 0 || count > kMaxCentres) {
     throw fail(ErrorKind::case_failed, "kd-tree: {} centres are not within 1 … {}", count, kMaxCentres);
   }
-  const uint32_t groups = groups_for(count, 64);
-  // Named by size, so that a later and larger tree of the same frame doesn't replace what is recorded here.
+  nodes_ = &scratch("nodes", count, 16);
+  sorted_ = &scratch("centres", count, 16);
+  if (count <= kFewCentres) {
+    build_few(r, centres, count);
+  } else {
+    build_many(r, centres, count);
+  }
+}
+
+const Buffer& KdTree::scratch(const char* name, uint32_t count, size_t bytes_each) {
   const size_t room = std::bit_ceil(count);
-  const auto scratch = [&](const char* name, size_t bytes) {
-    return &context_.scratch(fmt::format("kd.{}.{}", name, room), room * bytes);
-  };
+  return context_.scratch(fmt::format("kd.{}.{}", name, room), room * bytes_each);
+}
+
+void KdTree::build_few(Recorder& r, const Buffer& centres, uint32_t count) {
+  r.dispatch(few_,
+             {centres, *sorted_, *nodes_, scratch("words", count, 16), scratch("node boxes", count, 24)},
+             count, 1);
+  r.barrier();
+}
+
+void KdTree::build_many(Recorder& r, const Buffer& centres, uint32_t count) {
+  const uint32_t groups = groups_for(count, 64);
   const Buffer& bounds = context_.scratch("kd.bounds", 32);
-  const RadixSort::Pairs pairs{scratch("codes0", 4), scratch("ids0", 4)};
-  const RadixSort::Pairs spare{scratch("codes1", 4), scratch("ids1", 4)};
-  const Buffer &parents = *scratch("parents", 8), &visits = *scratch("visits", 4),
-               &boxes = *scratch("boxes", 48);
-  nodes_ = scratch("nodes", 16);
-  sorted_ = scratch("centres", 16);
+  const RadixSort::Pairs pairs{&scratch("codes0", count, 4), &scratch("ids0", count, 4)};
+  const RadixSort::Pairs spare{&scratch("codes1", count, 4), &scratch("ids1", count, 4)};
+  const Buffer &parents = scratch("parents", count, 8), &visits = scratch("visits", count, 4),
+               &boxes = scratch("boxes", count, 48);
 
   r.dispatch(bounds_, {centres, bounds}, count, 1);
   r.barrier();
@@ -54,7 +70,7 @@ void KdTree::build(Recorder& r, const Buffer& centres, uint32_t count) {
   const struct {
     uint32_t count, depth;
   } fit{count, kCodeBits + static_cast<uint32_t>(std::bit_width(count))};
-  if (count > 1) r.dispatch(fit_, {*sorted_, parents, visits, boxes, *nodes_}, fit, groups);
+  r.dispatch(fit_, {*sorted_, parents, visits, boxes, *nodes_}, fit, groups);
   r.barrier();
 }
 

@@ -51,6 +51,21 @@ CaseKey count(const Row& row, uint32_t FrameParameters::*field, uint32_t minimum
   return key;
 }
 
+CaseKey one_of(const Row& row, uint32_t FrameParameters::*field, const std::vector<uint32_t>& choices) {
+  CaseKey key = key_of(row);
+  key.default_value = FrameParameters().*field;
+  key.schema = {{"enum", choices}};
+  key.values = fmt::format("{}", fmt::join(choices, ", "));
+  key.read = [=, values = key.values](const Json& value, FrameParameters* frame) {
+    const bool known = value.is_number() &&
+                       std::ranges::any_of(choices, [&](uint32_t c) { return value.get<double>() == c; });
+    if (!known) throw fail(ErrorKind::config, "{} must be one of {}", value.dump(), values);
+    frame->*field = static_cast<uint32_t>(value.get<double>());
+  };
+  key.write = [=](const FrameParameters& frame) { return Json(frame.*field); };
+  return key;
+}
+
 CaseKey number(const Row& row, float FrameParameters::*field, double maximum) {
   CaseKey key = key_of(row);
   const float initial = FrameParameters().*field;
@@ -183,6 +198,10 @@ std::vector<CaseKey> table() {
              "images of so many light sets are averaged, the lights' radius × 2/3 from one to the next "
              "[VSGL14 §5]"},
             &P::progressive, 1, kMaxProgressive),
+      one_of({"interleave", kFrame, kIfDifferent,
+              "the pixels of every block of so many by so many share the lights out, and a filter that keeps "
+              "to one surface joins them; 1: each pixel takes all"},
+             &P::interleave, {1, 2, 4, 8}),
       choice({"lattice", kFrame, kIfDifferent,
               "of an animation: whether the points that lights are drawn by stay from frame to frame, or are "
               "shifted anew in each"},

@@ -20,7 +20,7 @@ std::vector<glm::vec3> MadeShading::shade(const oracle::Half& receivers, const L
   recorder_.begin();
   recorder_.pass({.stage = PassStage::shade}, [&] {
     recorder_.dispatch(kernel, {field.maps, light_buffer, out}, push, groups_for(field.emitter.width, 8),
-                       groups_for(field.emitter.height, 8));
+                       groups_for(field.emitter.height, 32));
   });
   recorder_.submit_and_wait();
   const auto raw = out.download<glm::vec4>(receivers.texels.size());
