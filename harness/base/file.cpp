@@ -40,12 +40,13 @@ fs::path temporary_beside(const fs::path& path) {
                                           path.extension().string());
 }
 
-}  // namespace
-
+// A device or a pipe.
 bool is_special(const fs::path& path) {
   std::error_code ec;
   return fs::exists(path, ec) && !fs::is_regular_file(path, ec) && !fs::is_directory(path, ec);
 }
+
+}  // namespace
 
 std::string read_text(const fs::path& path) { return read_all<std::string>(path); }
 std::vector<uint8_t> read_bytes(const fs::path& path) { return read_all<std::vector<uint8_t>>(path); }

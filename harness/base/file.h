@@ -14,13 +14,9 @@ namespace vsglbench {
 std::string read_text(const std::filesystem::path& path);
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path);
 
-// Whether it is there and neither a file nor a folder, nor a link to one: a device, or a pipe.
-bool is_special(const std::filesystem::path& path);
-
 // Calls `write(temporary)` in the target's folder, then renames onto `path`. On any failure (read-only
 // folder, full disk, exception) the temporary is removed, `path` keeps its old content and Error(output)
-// says path and reason. A process that is killed leaves the old content too, and the temporary. Creates
-// parent folders. A device or a pipe is written to as it is.
+// says path and reason. Creates parent folders.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 void write_text(const std::filesystem::path& path, std::string_view text);

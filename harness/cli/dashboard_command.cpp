@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "base/file.h"
 #include "base/printable.h"
 #include "cli/command.h"
 #include "dashboard/page.h"
@@ -39,7 +38,7 @@ void make(DashboardCommand command) {
   write_dashboard(dashboard, command.out);
   for (const auto& note : dashboard.digest.at("notes"))
     fmt::print(stderr, "note: {}\n", printable(note.get<std::string>()));
-  if (is_special(command.out)) return;  // it may be where this would be printed
+  if (!fs::is_regular_file(command.out, ec)) return;  // a pipe may be where this would be printed
   const auto size = fs::file_size(command.out, ec);
   const size_t pictures = dashboard.pictures.size();
   fmt::print("{}: {:.1f} MB, {} picture{}\n", printable(command.out.string()),

@@ -162,8 +162,6 @@ function budget() {
   const file = join(pages, "budget-config.json");
   writeFileSync(file, JSON.stringify(config));
   vsglbench("-q", "run", file, "--out", out);
-  // `run` leaves the analysis to `analyze`.
-  vsglbench("analyze", out);
   page("budget", out, "--images", "none");
 }
 
