@@ -40,6 +40,12 @@ fs::path temporary_beside(const fs::path& path) {
                                           path.extension().string());
 }
 
+// A device or a pipe.
+bool is_special(const fs::path& path) {
+  std::error_code ec;
+  return fs::exists(path, ec) && !fs::is_regular_file(path, ec) && !fs::is_directory(path, ec);
+}
+
 }  // namespace
 
 std::string read_text(const fs::path& path) { return read_all<std::string>(path); }
@@ -52,16 +58,26 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     throw fail(ErrorKind::output, "{}: cannot create the folder: {}", path.parent_path().string(),
                ec.message());
   }
-  // A device or a pipe is written to, and what a link points to replaced; neither is itself.
-  const bool special = fs::exists(path, ec) && !fs::is_regular_file(path, ec) && !fs::is_directory(path, ec);
-  const fs::path target = fs::is_symlink(path, ec) ? fs::weakly_canonical(path) : path;
+  if (fs::is_directory(path, ec))
+    throw fail(ErrorKind::output, "{}: is a folder; name a file in it", path.string());
+  // A device or a pipe is written to, by its own name: what /dev/stdout points to may have none. What a link
+  // to a file points to is replaced, not the link.
+  const bool special = is_special(path);
+  const fs::path target = !special && fs::is_symlink(path, ec) ? fs::weakly_canonical(path) : path;
   const fs::path temporary = special ? target : temporary_beside(target);
+  // What went wrong, without the temporary's name.
+  const auto failed = [&](const std::string& why) {
+    std::error_code ignored;
+    if (!special) fs::remove(temporary, ignored);
+    return fail(ErrorKind::output, "{}: cannot be written: {}", path.string(), why);
+  };
   try {
     write(temporary);
     if (!special) fs::rename(temporary, target);
+  } catch (const fs::filesystem_error& e) {
+    throw failed(e.code().message());
   } catch (const std::exception& e) {
-    if (!special) fs::remove(temporary, ec);
-    throw fail(ErrorKind::output, "{}: cannot be written: {}", path.string(), e.what());
+    throw failed(e.what());
   }
 }
 

@@ -20,6 +20,12 @@ struct DashboardCommand {
 
 void make(DashboardCommand command) {
   if (command.out.empty()) throw fail(ErrorKind::usage, "--out: is empty; name the page's file");
+  std::error_code ec;
+  if (fs::is_directory(command.out, ec))
+    throw fail(ErrorKind::usage, "--out {}: is a folder; name a file in it", command.out.string());
+  if (!(command.order.pictures.max_mb >= 0))
+    throw fail(ErrorKind::usage, "--max-mb {}: is below 0; name the MB that pictures may take, or 0 for none",
+               command.order.pictures.max_mb);
   command.order.pictures.mode = picture_mode(command.images);
   for (const auto& [name, path] :
        {std::pair("--papers", command.papers), {"--stability", command.stability}}) {
@@ -32,7 +38,7 @@ void make(DashboardCommand command) {
   write_dashboard(dashboard, command.out);
   for (const auto& note : dashboard.digest.at("notes"))
     fmt::print(stderr, "note: {}\n", printable(note.get<std::string>()));
-  std::error_code ec;  // a device has no size
+  if (!fs::is_regular_file(command.out, ec)) return;  // a pipe may be where this would be printed
   const auto size = fs::file_size(command.out, ec);
   const size_t pictures = dashboard.pictures.size();
   fmt::print("{}: {:.1f} MB, {} picture{}\n", printable(command.out.string()),
@@ -67,10 +73,8 @@ void add_dashboard_command(CLI::App& app) {
                    "glob of ids whose pictures have values, beside the front's; may come again")
       ->allow_extra_args(false);
   command->add_option("--metric", options->order.pictures.metric, "whose front that is (default: smape)");
-  command
-      ->add_option("--max-mb", options->order.pictures.max_mb,
-                   "of the page that pictures may take (default: 25)")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--max-mb", options->order.pictures.max_mb,
+                      "of the page that pictures may take (default: 25)");
   command->callback([=] { make(*options); });
 }
 

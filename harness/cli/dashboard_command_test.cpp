@@ -1,4 +1,4 @@
-// dashboard, on committed reports.
+// What dashboard refuses, on committed reports.
 #include <filesystem>
 
 #include "base/file.h"
@@ -10,21 +10,6 @@ namespace {
 
 const std::string kReports = std::string(VSGLBENCH_SOURCE_DIR) + "/reports/";
 
-TEST_F(CliTest, DashboardWritesOnePage) {
-  const std::string page = (folder_ / "deep" / "page.html").string();
-  const Finished f = run({"dashboard", kReports + "cut-lavapipe", "--out", page, "--papers",
-                          kReports + "papers/lavapipe/papers.json"});
-  EXPECT_EQ(f.code, 0) << f.err;
-  EXPECT_TRUE(contains(f.out, page)) << f.out;
-  EXPECT_TRUE(contains(f.err, "no folder images/ beside the report")) << f.err;
-  const std::string text = read_text(page);
-  EXPECT_TRUE(contains(text, "id=\"data\">"));
-  EXPECT_FALSE(contains(text, "<!--data-->"));
-  // What a browser would fetch: a page from a file may ask nothing of a network.
-  EXPECT_FALSE(contains(text, "src=\""));
-  EXPECT_FALSE(contains(text, "href=\""));
-}
-
 TEST_F(CliTest, DashboardRefusesWhatItCanNotShow) {
   const std::string cut = kReports + "cut-lavapipe", out = (folder_ / "page.html").string();
   expect_refused(run({"dashboard"}), 2, "reports is required");
@@ -32,7 +17,9 @@ TEST_F(CliTest, DashboardRefusesWhatItCanNotShow) {
   expect_refused(run({"dashboard", cut, "--out", ""}), 2, "--out: is empty");
   expect_refused(run({"dashboard", cut, "--out", out, "--images", "jpg"}), 2, "there are none, png, exr");
   expect_refused(run({"dashboard", cut, "--out", out, "--metric", "smap"}), 2, "did you mean 'smape'");
-  expect_refused(run({"dashboard", cut, "--out", out, "--max-mb", "-1"}), 2, "--max-mb");
+  expect_refused(run({"dashboard", cut, "--out", out, "--max-mb", "-1"}), 2, "--max-mb -1: is below 0; name");
+  expect_refused(run({"dashboard", cut, "--out", out, "--max-mb", "nan"}), 2, "--max-mb nan: ");
+  expect_refused(run({"dashboard", cut, "--out", folder_.string()}), 2, ": is a folder; name a file in it");
   const std::string report = cut + "/report.json";
   expect_refused(run({"dashboard", cut, "--out", out, "--papers", report}), 2, "no papers.json");
   expect_refused(run({"dashboard", cut, "--out", out, "--stability", report}), 2, "vsglbench.stability/1");

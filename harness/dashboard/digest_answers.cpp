@@ -1,5 +1,6 @@
 // Budgets, prices, flicker and claims: what the programme concludes of a report.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "answer/analysis.h"
@@ -10,6 +11,7 @@
 #include "dashboard/columns.h"
 #include "dashboard/digest.h"
 #include "papers/page.h"
+#include "report/noise.h"
 
 namespace vsglbench {
 namespace {
@@ -58,6 +60,61 @@ Json price_json(const PointGroup& g, const Price& p, const CaseIndex& index) {
           {"pass_ms", rounded(p.pass_ms)}};
 }
 
+// What pairs of one method come to: sums, so that the page can add up those of the methods that it shows.
+struct PairSums {
+  size_t pairs = 0;
+  double error = 0;                      // of ln(after / before)
+  std::map<std::string, double> times;   // the same of each time that all pairs have
+  std::map<std::string, size_t> passes;  // that pay, by the pairs in which they do
+};
+
+std::optional<double> log_time_ratio(const CaseResult& before, const CaseResult& after,
+                                     const std::string& time) {
+  const std::optional<Summary> a = time_of(before, time), b = time_of(after, time);
+  if (!a || !b || !(a->median > 0) || !(b->median > 0)) return std::nullopt;
+  return std::log(b->median / a->median);
+}
+
+void add_pair(const Point& before, const Point& after, const Price& p, PairSums* sums) {
+  const bool first = sums->pairs++ == 0;
+  sums->error += std::log(after.error.value / before.error.value);
+  for (const std::string& time : time_columns()) {
+    // By points, which know the time of a report of old as well.
+    const std::optional<double> log = time == "method"
+                                          ? std::optional(std::log(after.ms.value / before.ms.value))
+                                          : log_time_ratio(*before.result, *after.result, time);
+    if (!log)
+      sums->times.erase(time);
+    else if (first)
+      sums->times[time] = *log;
+    else if (const auto known = sums->times.find(time); known != sums->times.end())
+      known->second += *log;
+  }
+  ++sums->passes[p.pass];
+}
+
+// By key and method.
+std::map<std::string, std::map<std::string, PairSums>> pair_sums(const PointGroup& g,
+                                                                 const std::vector<Price>& prices) {
+  std::map<std::string, std::map<std::string, PairSums>> out;
+  for (const Price& p : prices) {
+    const Point &before = g.points[p.before], &after = g.points[p.after];
+    if (before.error.value > 0 && after.error.value > 0)
+      add_pair(before, after, p, &out[p.key][before.result->method]);
+  }
+  return out;
+}
+
+Json pair_sums_json(const std::string& method, const PairSums& s) {
+  Json times = Json::object();
+  for (const auto& [time, log] : s.times) times[time] = rounded(log);
+  return {{"method", method},
+          {"pairs", s.pairs},
+          {"error", rounded(s.error)},
+          {"times", std::move(times)},
+          {"passes", s.passes}};
+}
+
 void add_knobs(const PointGroup& g, int group, const std::string& metric, const CaseIndex& index, Json* out) {
   const std::vector<Price> all = prices(g);
   std::map<std::string, Json> by_key;
@@ -65,15 +122,14 @@ void add_knobs(const PointGroup& g, int group, const std::string& metric, const 
     Json& list = by_key.try_emplace(p.key, Json::array()).first->second;
     if (list.size() < kMostPrices) list.push_back(price_json(g, p, index));
   }
-  for (const KnobSummary& k : knob_summaries(g, all)) {
+  for (const auto& [key, methods] : pair_sums(g, all)) {
+    Json sums = Json::array();
+    for (const auto& [method, s] : methods) sums.push_back(pair_sums_json(method, s));
     out->push_back({{"group", group},
                     {"metric", metric},
-                    {"key", k.key},
-                    {"pairs", k.pairs},
-                    {"error_ratio", rounded(k.error_ratio)},
-                    {"time_ratio", rounded(k.cost_ratio)},
-                    {"pass", k.pass},
-                    {"prices", by_key[k.key]}});
+                    {"key", key},
+                    {"methods", std::move(sums)},
+                    {"prices", by_key[key]}});
   }
 }
 

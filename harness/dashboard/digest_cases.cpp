@@ -11,6 +11,8 @@
 namespace vsglbench {
 namespace {
 
+constexpr int kIntervalDigits = 5;  // of passes: there are many
+
 // Names of cases that are told apart from their neighbours alone: of one scene and group.
 std::vector<std::string> labels(const Report& report, const std::vector<int>& groups) {
   std::map<std::pair<std::string, int>, std::vector<const CaseResult*>> neighbours;
@@ -107,12 +109,15 @@ Json pass_rows(const Report& report) {
   for (const std::string& name : pass_names(report)) place.emplace(name, place.size());
   Json out = Json::array();
   for (const CaseResult& c : report.cases) {
-    Json pass = Json::array(), ms = Json::array();
+    Json pass = Json::array(), ms = Json::array(), lo = Json::array(), hi = Json::array();
     for (const PassTiming& p : c.passes) {
       pass.push_back(place.at(p.pass.name()));
       ms.push_back(rounded(p.ms.median));
+      lo.push_back(rounded(p.ms.ci95.lo, kIntervalDigits));
+      hi.push_back(rounded(p.ms.ci95.hi, kIntervalDigits));
     }
-    out.push_back({{"pass", std::move(pass)}, {"ms", std::move(ms)}});
+    out.push_back(
+        {{"pass", std::move(pass)}, {"ms", std::move(ms)}, {"lo", std::move(lo)}, {"hi", std::move(hi)}});
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "answer/front.h"
 #include "base/file.h"
@@ -89,6 +90,47 @@ TEST_F(FrontDigest, PassesAddUpToTheFrame) {
                 file.at("cases")[i].at("passes")[k].at("name"));
     }
   }
+}
+
+TEST_F(FrontDigest, PassesHaveTheirIntervals) {
+  const Json file = Json::parse(read_text(kReports + "front-lavapipe/report.json"));
+  const Json& rows = digest().at("cases").at("passes");
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t k = 0; k < rows[i].at("pass").size(); ++k) {
+      const Json& ci = file.at("cases")[i].at("passes")[k].at("ci95_ms");
+      EXPECT_NEAR(rows[i].at("lo")[k].get<double>() / ci[0].get<double>(), 1, 1e-4);
+      EXPECT_NEAR(rows[i].at("hi")[k].get<double>() / ci[1].get<double>(), 1, 1e-4);
+    }
+  }
+}
+
+// The sums over methods give the means that `analyze` wrote.
+TEST_F(FrontDigest, KnobsAddUpToTheAnalysis) {
+  const Json file = Json::parse(read_text(kReports + "front-lavapipe/report.json"));
+  size_t compared = 0;
+  for (const Json& g : file.at("analysis").at("groups")) {
+    for (const Json& told : g.at("knobs")) {
+      for (const Json& k : digest().at("knobs")) {
+        const Json& group = digest().at("groups").at(k.at("group").get<size_t>());
+        if (k.at("metric") != g.at("metric") || k.at("key") != told.at("key") ||
+            group.at("reference") != g.at("reference") ||
+            digest().at("scenes").at(group.at("scene").get<size_t>()).at("name") != g.at("scene"))
+          continue;
+        double pairs = 0, error = 0, time = 0;
+        for (const Json& m : k.at("methods")) {
+          pairs += m.at("pairs").get<double>();
+          error += m.at("error").get<double>();
+          time += m.at("times").at("method").get<double>();
+        }
+        ++compared;
+        EXPECT_EQ(pairs, told.at("pairs_in_all").get<double>());
+        EXPECT_NEAR(std::exp(error / pairs) / told.at("error_ratio").get<double>(), 1, 1e-6);
+        EXPECT_NEAR(std::exp(time / pairs) / told.at("time_ratio").get<double>(), 1, 1e-6);
+      }
+    }
+  }
+  EXPECT_EQ(compared, digest().at("knobs").size());
+  EXPECT_GT(compared, 50);
 }
 
 // Of no case does a pass come before one that stands earlier in the list.

@@ -229,7 +229,6 @@ Dashboard make_dashboard(const DashboardOrder& order) {
                 {"stability", order.stability.empty() ? Json(nullptr) : stability_json(order.stability)},
                 {"claims", std::move(claims)},
                 {"images", std::move(images)},
-                {"images_left_out", left_out},
                 {"notes", notes}};
   join_pictures(&out.digest);
   return out;

@@ -1,6 +1,7 @@
 #include "dashboard/pictures.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "answer/front.h"
@@ -42,7 +43,10 @@ class Chooser {
   ChosenPictures choose() {
     std::error_code ec;
     if (!fs::exists(folder_ / "images", ec)) {
-      out_.notes.push_back("there is no folder images/ beside the report, hence no picture in the page");
+      add_kept();
+      out_.notes.push_back(
+          fmt::format("there is no folder images/ beside the report, hence no picture{} in the page",
+                      out_.list.empty() ? "" : " but those of flicker"));
       return std::move(out_);
     }
     const std::set<size_t> exact = exact_cases();
@@ -133,9 +137,28 @@ class Chooser {
     });
   }
 
+  // SCENE-METHOD.flicker.png beside a committed report is of the method's first case there, by the picture's
+  // name (ci/regenerate-reports).
+  void add_kept() {
+    std::map<std::string, size_t> first;
+    for (size_t i = 0; i < report_.cases.size(); ++i) {
+      const CaseResult& c = report_.cases[i];
+      const std::string path = image_path(c, "flicker");
+      if (path.empty()) continue;
+      const auto [at, added] = first.try_emplace(fmt::format("{}-{}.flicker.png", c.scene, c.method), i);
+      if (!added && path < image_path(report_.cases[at->second], "flicker")) at->second = i;
+    }
+    std::error_code ec;
+    for (const auto& [name, i] : first) {
+      if (fs::exists(folder_ / name, ec)) add_png(i, "flicker", name);
+    }
+  }
+
+  void add_file(size_t i, const char* kind) { add_png(i, kind, image_path(report_.cases[i], kind)); }
+
   // A PNG as it is.
-  void add_file(size_t i, const char* kind) {
-    attempt(image_path(report_.cases[i], kind), [&](const fs::path& file) {
+  void add_png(size_t i, const char* kind, const std::string& path) {
+    attempt(path, [&](const fs::path& file) {
       const Bitmap bitmap = read_png(file);
       if (!embed(i, kind, "png", bitmap.width, bitmap.height, read_text(file))) leave_out();
     });

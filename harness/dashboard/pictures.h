@@ -35,7 +35,7 @@ struct ChosenPictures {
 
 // Of the report in `folder`, which is number `report` of the page: first references, then the front's cases
 // and those asked for as half floats, flicker's pictures, and all other cases as PNG, as long as `room_mb`
-// lasts.
+// lasts. Without images/, what a committed report keeps: SCENE-METHOD.flicker.png.
 ChosenPictures choose_pictures(const Report& report, const std::filesystem::path& folder, size_t report_index,
                                const std::vector<int>& groups, const PictureOrder& order, double room_mb);
 

@@ -57,7 +57,7 @@ export interface Cases {
   times: Record<string, Estimates>; // by name of Report.times; medians over frames
   errors: Record<string, Estimates & { heavy: (0 | 1)[]; seeds: (number[] | null)[] }>; // by metric
   extra: Record<string, (number | null)[]>; // by name of Report.extra
-  passes: { pass: number[]; ms: number[] }[]; // of each case: index in Report.passes, and its median
+  passes: { pass: number[]; ms: number[]; lo: number[]; hi: number[] }[]; // of each case: index in Report.passes, its median and that one's 95 % interval
 }
 
 export interface BudgetPart {
@@ -68,14 +68,21 @@ export interface BudgetPart {
   increment: number | null; // over the nearest part above that is there
 }
 
+// All pairs of one method that differ in a knob alone, added up.
+export interface PairSums {
+  method: string;
+  pairs: number;
+  error: number; // of ln(after / before)
+  times: Record<string, number>; // the same, of each time that all pairs have
+  passes: Record<string, number>; // that pay, by the pairs in which they do; "": none does
+}
+
 export interface Knob {
   group: number;
   metric: string;
   key: string;
-  pairs: number;
-  error_ratio: number; // geometric means over pairs, from one value to the next
-  time_ratio: number;
-  pass: string; // that pays most often; empty: none
+  methods: PairSums[];
+  // the first pairs, from one value to the next; ms is of the method's time
   prices: { from: string; to: string; before: number; after: number; error: number; ms: number; pass: string; pass_ms: number }[];
 }
 
@@ -203,7 +210,6 @@ export interface Digest {
   stability: Stability | null;
   claims: Claim[]; // of papers.json: what `reproduce` found
   images: Image[];
-  images_left_out: number; // for --max-mb
   notes: string[]; // what a reader must know of how the page was made
 }
 

@@ -3,15 +3,17 @@ import { groupIndex, groupName, hiddenMethods, metricOf, metricsThere, timeOf, t
 import { lookOf, swatch } from "./colours";
 import { choice, h } from "./dom";
 import { metricLabel } from "./format";
-import type { Filter, Page } from "./view";
+import type { Page, View } from "./view";
 
 // Methods are the legend, too: a box each, with colour and symbol.
-function methodBoxes(page: Page): HTMLElement {
-  const { report, state, digest } = page;
+// What another view alone shows stays as it is.
+function methodBoxes(page: Page, methods: string[]): HTMLElement {
+  const { state, digest } = page;
   const hidden = hiddenMethods(page);
-  const show = (methods: string[]) => state.set({ x: report.methods.filter((m) => !methods.includes(m)).join(",") });
-  const shown = () => report.methods.filter((m) => !hidden.has(m));
-  const boxes = report.methods.map((m) => {
+  const elsewhere = [...hidden].filter((m) => !methods.includes(m));
+  const show = (these: string[]) => state.set({ x: [...elsewhere, ...methods.filter((m) => !these.includes(m))].join(",") });
+  const shown = () => methods.filter((m) => !hidden.has(m));
+  const boxes = methods.map((m) => {
     const id = "method-" + m;
     const toggle = () => show(hidden.has(m) ? [...shown(), m] : shown().filter((s) => s !== m));
     return h(
@@ -20,11 +22,13 @@ function methodBoxes(page: Page): HTMLElement {
       h("button", { type: "button", class: "only", id: "only-" + m, "aria-label": `Only ${m}`, click: () => show([m]) }, "only"),
     );
   });
-  return h("fieldset", { class: "methods" }, h("legend", {}, "Methods"), ...boxes, h("button", { type: "button", id: "all-methods", disabled: hidden.size === 0, click: () => show(report.methods) }, "All"));
+  return h("fieldset", { class: "methods" }, h("legend", {}, "Methods"), ...boxes, h("button", { type: "button", id: "all-methods", disabled: shown().length === methods.length, click: () => show(methods) }, "All"));
 }
 
-export function filters(page: Page, heeded: Filter[] = ["group", "metric", "time", "methods"]): HTMLElement[] {
+export function filters(page: Page, view?: View): HTMLElement[] {
   const { report, state } = page;
+  const heeded = view?.filters ?? ["group", "metric", "time", "methods"];
+  const methods = view?.methods?.(page) ?? report.methods;
   const out: HTMLElement[] = [];
   if (heeded.includes("group") && report.groups.length > 0) {
     const groups = report.groups.map((g, i): [string, string] => [String(i), groupName(report, g)]);
@@ -37,6 +41,6 @@ export function filters(page: Page, heeded: Filter[] = ["group", "metric", "time
   if (heeded.includes("time") && times.length > 0) {
     out.push(choice("Time", "time", times.map((t) => [t.name, `${t.name}: ${t.words}`]), timeOf(page).name, (t) => state.set({ t: t === "method" ? "" : t })));
   }
-  if (heeded.includes("methods") && report.methods.length > 1) out.push(methodBoxes(page));
+  if (heeded.includes("methods") && methods.length > 1) out.push(methodBoxes(page, methods));
   return out;
 }

@@ -14,6 +14,15 @@ function chosenView(page: Page): View | undefined {
   return there.find((v) => v.id === page.state.get("v")) ?? there[0];
 }
 
+// Of a URL that names a view which is not there.
+function missedView(page: Page, chosen: View | undefined): HTMLElement | null {
+  const asked = page.state.get("v");
+  if (asked === "" || !chosen || asked === chosen.id) return null;
+  const known = views.find((v) => v.id === asked);
+  const why = known ? `This report has nothing for the view “${known.title}”` : `There is no view “${asked}”`;
+  return h("p", { class: "warning", role: "status" }, `${why}: “${chosen.title}” is shown instead.`);
+}
+
 function tabs(page: Page, chosen: View | undefined): HTMLElement {
   const there = views.filter((v) => v.has(page));
   const go = (to: View) => {
@@ -36,9 +45,9 @@ function tabs(page: Page, chosen: View | undefined): HTMLElement {
 
 function start(digest: Digest, app: HTMLElement): void {
   const state = new State();
-  const head = h("header", {}), nav = h("nav", { "aria-label": "Views" }), bar = h("div", { class: "filters" });
+  const head = h("header", {}), nav = h("nav", { "aria-label": "Views" }), missed = h("div"), bar = h("div", { class: "filters" });
   const root = h("main", { id: "view", role: "tabpanel", tabindex: -1 });
-  app.append(head, nav, bar, root);
+  app.append(head, nav, missed, bar, root);
 
   const draw = () => {
     const report = digest.reports[state.number("r", -1)] ?? digest.reports[digest.reports.length - 1]; // the newest
@@ -48,7 +57,8 @@ function start(digest: Digest, app: HTMLElement): void {
     head.replaceChildren(header(page));
     const view = chosenView(page);
     nav.replaceChildren(tabs(page, view));
-    bar.replaceChildren(...filters(page, view?.filters));
+    missed.replaceChildren(missedView(page, view) ?? "");
+    bar.replaceChildren(...filters(page, view));
     root.style.minHeight = `${root.offsetHeight}px`; // else the page would jump while it is empty
     root.replaceChildren();
     root.className = "view-" + (view?.id ?? "none");

@@ -1,15 +1,37 @@
-// Hovering over a chart's points, and moving among them with keys: a tip tells of the nearest.
+// Hovering over a chart's points, tapping them, and moving among them with keys: a tip tells of the nearest.
 import { pictureOf } from "./charts";
 import { h } from "./dom";
 
 export interface Spot {
   x: number; // pixels in the chart
   y: number;
+  halfWidth?: number; // of what is no point: all of it is as near as its middle
+  halfHeight?: number;
+}
+
+const kNear = 28; // pixels to the spot that is read
+
+// A finger leaves what it has read behind; a tap elsewhere takes it away.
+let left: { box: HTMLElement; end: () => void } | null = null;
+document.addEventListener("pointerdown", (e) => {
+  if (!left || left.box.contains(e.target as Node)) return;
+  left.end();
+  left = null;
+});
+
+// Of the spots of a chart, the one that is nearest to a place in it.
+function nearestSpot(spots: Spot[], x: number, y: number): number | null {
+  let best: number | null = null, least = kNear ** 2;
+  spots.forEach((s, i) => {
+    const dx = Math.max(0, Math.abs(s.x - x) - (s.halfWidth ?? 0)), dy = Math.max(0, Math.abs(s.y - y) - (s.halfHeight ?? 0));
+    const d = dx * dx + dy * dy;
+    if (d < least) [best, least] = [i, d];
+  });
+  return best;
 }
 
 // `spots` in the order that the arrow keys follow; `tell` fills the tip; `active` learns which spot is read, null: none.
 export function readSpots(box: HTMLElement, width: number, spots: Spot[], tell: (i: number) => (Node | string)[], active?: (i: number | null) => void): void {
-  const kNear = 28;
   const tip = h("div", { class: "tip", role: "status" });
   tip.hidden = true;
   box.append(tip);
@@ -26,16 +48,16 @@ export function readSpots(box: HTMLElement, width: number, spots: Spot[], tell: 
     tip.style.right = x > width / 2 ? `${width - x + 14}px` : "";
     tip.style.top = `${Math.max(0, y - 40)}px`;
   };
-  box.onpointermove = (e) => {
+  const read = (e: PointerEvent) => {
     const r = box.getBoundingClientRect();
-    let best: number | null = null, least = kNear ** 2;
-    spots.forEach((s, i) => {
-      const d = (s.x - (e.clientX - r.left)) ** 2 + (s.y - (e.clientY - r.top)) ** 2;
-      if (d < least) [best, least] = [i, d];
-    });
-    show(best);
+    show(nearestSpot(spots, e.clientX - r.left, e.clientY - r.top));
   };
-  box.onpointerleave = () => show(null);
+  box.onpointermove = read;
+  box.onpointerdown = (e) => {
+    read(e);
+    if (e.pointerType === "touch") left = { box, end: () => show(null) };
+  };
+  box.onpointerleave = (e) => e.pointerType !== "touch" && show(null);
   box.onblur = () => show(null);
   box.onkeydown = (e) => {
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[e.key];

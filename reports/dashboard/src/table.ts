@@ -92,6 +92,15 @@ export function table<Row>(o: TableOptions<Row>): HTMLElement {
     return cell;
   }
 
+  // Those that are chosen, without drawing anew: what is focused stays so, and as many rows stay.
+  function mark(): void {
+    drawn.forEach((row, i) => {
+      const chosen = o.marked?.(row) ?? false;
+      body.children[i].classList.toggle("marked", chosen);
+      if (o.marked) body.children[i].querySelector("button.row")?.setAttribute("aria-pressed", String(chosen));
+    });
+  }
+
   let drawn: Row[] = [];
   function draw(): void {
     const rows = sorted(matching());
@@ -127,7 +136,9 @@ export function table<Row>(o: TableOptions<Row>): HTMLElement {
   });
   body.addEventListener("click", (event) => {
     const tr = (event.target as Element).closest("tr");
-    if (tr && o.choose && !(event.target as Element).closest("a")) o.choose(drawn[Array.prototype.indexOf.call(body.children, tr)]);
+    if (!tr || !o.choose || (event.target as Element).closest("a")) return;
+    o.choose(drawn[Array.prototype.indexOf.call(body.children, tr)]);
+    mark();
   });
 
   const csv = h("button", { type: "button", click: () => save(o.file + ".csv", csvOf(o.columns, sorted(matching()))) }, "CSV");

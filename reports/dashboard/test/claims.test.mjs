@@ -66,6 +66,20 @@ test("a filter by ruling leaves those trials alone, and the URL holds it", async
   assert.equal(await p.locator(".claim").count(), 0);
 });
 
+test("a filter hides trials, but a claim's ruling is of all of them", async () => {
+  const p = await page({ hash: "v=claims" });
+  const names = [...new Set(trials.map((t) => t.claim))];
+  const chips = async () => Object.fromEntries(await Promise.all(names.map(async (n) => [n, (await p.locator(`[id="claim-${n}"] .ruling`).first().textContent({ timeout: 1000 }).catch(() => ""))])));
+  const before = await chips();
+  const mixed = names.filter((n) => new Set(trials.filter((t) => t.claim === n).map((t) => t.ruling)).size > 1);
+  assert.ok(mixed.length > 0);
+  await p.getByLabel("Ruling of a trial").selectOption("holds");
+  for (const name of mixed.filter((n) => trials.some((t) => t.claim === n && t.ruling === "holds"))) {
+    assert.equal(await p.locator(`[id="claim-${name}"] .ruling`).first().textContent(), before[name], name);
+    assert.match(await p.locator(`[id="claim-${name}"] summary`).textContent(), new RegExp(`of ${trials.filter((t) => t.claim === name).length} trials`));
+  }
+});
+
 test("words filter, too; dark and narrow are sound", async () => {
   const p = await page({ hash: "v=claims", dark: true, width: 400 });
   await p.getByLabel("Words").fill("splotches");

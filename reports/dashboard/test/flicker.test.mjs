@@ -1,9 +1,9 @@
 // The flicker view against the report: figures, series, what hovering tells, filters, pictures.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, test } from "node:test";
 import { close, open, report } from "./harness.mjs";
+import { assertSound } from "./sound.mjs";
 
 const told = report("flicker");
 const scene = told.cases.find((c) => c.temporal).scene;
@@ -144,12 +144,5 @@ test("pictures of the worst crop, where the page has them", async (t) => {
 });
 
 test("no serious accessibility fault", async () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-  for (const dark of [false, true]) {
-    const page = await look("", { dark });
-    await page.evaluate(axe);
-    const found = await page.evaluate(() => globalThis.axe.run(document));
-    assert.deepEqual(found.violations.filter((v) => v.impact === "serious" || v.impact === "critical").map((v) => `${v.id}: ${v.nodes.map((n) => n.target + " " + n.failureSummary).join("; ")}`), []);
-    clean(page);
-  }
+  for (const dark of [false, true]) await assertSound(await look("", { dark }));
 });

@@ -66,3 +66,33 @@ export async function downloaded(page, click) {
   const [download] = await Promise.all([page.waitForEvent("download"), click()]);
   return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
 }
+
+// What a table saves, every digit: rows by the titles of its columns, "SMAPE (%)".
+export async function saved(page, caption) {
+  const { text } = await downloaded(page, () => page.getByRole("button", { name: `Save as CSV: ${caption}`, exact: true }).click());
+  const cells = (line) => [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].map((m) => m[1].replace(/^"|"$/g, "").replaceAll('""', '"'));
+  const [head, ...lines] = text.trim().split("\r\n").map(cells);
+  return lines.map((line) => Object.fromEntries(head.map((title, i) => [title, line[i]])));
+}
+
+// Pixels of a value on an axis of a chart, in the window, from two of its labelled ticks.
+export async function axisOf(page, chart, axis, scale = "log") {
+  const ticks = await page.locator(chart).first().locator(`g[data-mark="${axis}-axis tick label"] text`).evaluateAll((texts, side) => texts.map((t) => {
+    const box = t.getBoundingClientRect();
+    return { value: Number(t.textContent), at: side === "x" ? box.x + box.width / 2 : box.y + box.height / 2 };
+  }), axis);
+  const f = scale === "log" ? Math.log : (v) => v;
+  const a = ticks[0], b = ticks.at(-1);
+  return (v) => a.at + ((b.at - a.at) * (f(v) - f(a.value))) / (f(b.value) - f(a.value));
+}
+
+// What the tip says when each of these places is pointed at; places are in the window.
+export async function tipsAt(page, places) {
+  const out = [];
+  for (const [x, y] of places) {
+    await page.mouse.move(x, y);
+    const tip = page.locator(".tip:not([hidden])");
+    out.push((await tip.count()) > 0 ? await tip.innerText() : "");
+  }
+  return out;
+}

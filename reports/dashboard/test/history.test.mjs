@@ -139,6 +139,33 @@ test("the figures of the lines are a table, too", async () => {
   assert.deepEqual((await rows.nth(20).locator("th, td").allTextContents()).slice(4, 8), ["vpl N=2", "33", "32.67", "33.33"]);
 });
 
+test("boxes are of all methods of the history, those of the newest report or not", async () => {
+  const p = await page(madeHistory({ reports: 5, series: 4, methods: ["mfis", "gone"] }));
+  await p.getByLabel("gone", { exact: true }).uncheck();
+  assert.equal(await p.locator(".history-panel h3", { hasText: "gone" }).count(), 0);
+  assert.match(await p.locator(".history-panel h3").first().textContent(), /1 method$/);
+  assert.match(p.url(), /x=gone/);
+});
+
+test("on paper all is light, whatever the page is", async () => {
+  const p = await page(few(), { dark: true });
+  const ink = () => p.locator(".history-frame canvas").first().evaluate((c) => {
+    const data = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+    const seen = new Map();
+    for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255) seen.set(data.slice(i, i + 3).join(), (seen.get(data.slice(i, i + 3).join()) ?? 0) + 1);
+    return [...seen].sort((a, b) => b[1] - a[1]).slice(0, 3).map(([colour]) => colour).sort().join(" ");
+  });
+  const dark = await ink();
+  await p.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+  const paper = await ink();
+  assert.notEqual(paper, dark);
+  await p.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+  assert.equal(await ink(), dark);
+  await p.emulateMedia({ colorScheme: "light" });
+  await p.waitForTimeout(100);
+  assert.equal(await ink(), paper);
+});
+
 test("dark and narrow are sound", async () => {
   await assertSound(await page(few(), { dark: true, width: 400, hash: "&hi.s=2" }));
 });

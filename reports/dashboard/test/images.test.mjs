@@ -1,10 +1,10 @@
 // The image view against the EXR files of the report: colours on the screen, figures, divider, keys, the URL.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, test } from "node:test";
 import { decode, encodeSrgb, expected, looked, luminance, readPicture, signedError } from "./exr.mjs";
 import { close, open, report } from "./harness.mjs";
+import { assertSound } from "./sound.mjs";
 
 const told = report("images");
 // Two cases of one scene and reference.
@@ -378,12 +378,5 @@ test("without WebGL2 the same picture is drawn, and the page says so", async () 
 });
 
 test("no serious accessibility fault", async () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-  for (const dark of [false, true]) {
-    const page = await look("&im.l=all&im.f=1&im.s=2,2,9,9", { dark });
-    await page.evaluate(axe);
-    const found = await page.evaluate(() => globalThis.axe.run(document));
-    assert.deepEqual(found.violations.filter((v) => v.impact === "serious" || v.impact === "critical").map((v) => `${v.id}: ${v.nodes.map((n) => n.target + " " + n.failureSummary).join("; ")}`), []);
-    clean(page);
-  }
+  for (const dark of [false, true]) await assertSound(await look("&im.l=all&im.f=1&im.s=2,2,9,9", { dark }));
 });

@@ -138,6 +138,33 @@ function images() {
   page("images", out, "--case", "*");
 }
 
+// Run here: every part of an error budget, and one that lacks the case with exact visibility.
+function budget() {
+  const out = folder("budget");
+  rmSync(out, { recursive: true, force: true });
+  const config = {
+    name: "budget",
+    description: "every approximation by itself on a small frame, for the dashboard's tests",
+    scenes: ["cornell"],
+    methods: [
+      { method: "all-texels", shading: ["exact", "vsgl16"], visibility: "none" },
+      { method: "mfis", visibility: ["none", "exact", "ism"] },
+      { method: "vpl", visibility: ["none", "ism"] },
+    ],
+    frame: { width: 64, height: 36 },
+    rsm: 16,
+    N: 32,
+    importance_lights: 64,
+    seeds: 2,
+    reference: { samples: 64 },
+    timing: { min_samples: 2, max_samples: 2 },
+  };
+  const file = join(pages, "budget-config.json");
+  writeFileSync(file, JSON.stringify(config));
+  vsglbench("-q", "run", file, "--out", out);
+  page("budget", out, "--images", "none");
+}
+
 // More than 10,000 cases, from copies of those of the front's report under other values of N.
 function large() {
   const report = read(join(source, "reports/front-lavapipe/report.json"));
@@ -166,7 +193,7 @@ function large() {
   page("large", join(pages, "large"));
 }
 
-const all = { committed, pair, history, images, large };
+const all = { committed, pair, history, images, budget, large };
 const wanted = process.argv.slice(2);
 mkdirSync(pages, { recursive: true });
 for (const [name, make] of Object.entries(all)) {

@@ -43,6 +43,33 @@ test("arrow keys move along the tabs, the URL keeps the view", async () => {
   assert.equal(await again.locator("[role=tab][aria-selected=true]").textContent(), title);
 });
 
+test("a view that the page has not is said to be missing", async () => {
+  const page = await open("front", { hash: "v=fornt" });
+  assert.match(await page.locator("[role=status].warning").textContent(), /There is no view “fornt”: “Error against time” is shown instead/);
+  await page.getByRole("tab", { name: "Passes" }).click();
+  assert.equal(await page.locator("[role=status].warning").count(), 0);
+  const without = await open("front", { hash: "v=flicker" });
+  assert.match(await without.locator("[role=status].warning").textContent(), /nothing for the view “Flicker”/);
+});
+
+test("choosing a row keeps focus and the rows that were asked for", async () => {
+  const page = await open("front", { hash: "v=cases" });
+  await page.getByRole("button", { name: /^Next / }).click();
+  const rows = page.locator("#view tbody tr");
+  const count = await rows.count();
+  assert.ok(count > 200);
+  const button = rows.nth(250).locator("button.row");
+  await button.focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await rows.count(), count);
+  assert.equal(await button.evaluate((e) => e === document.activeElement), true);
+  assert.equal(await button.getAttribute("aria-pressed"), "true");
+  assert.match(page.url(), /[#&]c=250(&|$)/);
+  await page.keyboard.press("Enter");
+  assert.equal(await button.getAttribute("aria-pressed"), "false");
+  assert.doesNotMatch(page.url(), /[#&]c=/);
+});
+
 test("dark by the system's choice, and by the button", async () => {
   const ground = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const [light, dark] = [await ground(await open("front")), await ground(await open("front", { dark: true }))];

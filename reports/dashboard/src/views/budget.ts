@@ -63,6 +63,16 @@ function waterfall(page: Page, budget: Budget, most: number, width: number): Ele
   });
 }
 
+// "SG lobes of 3 cases: all-texels, shading vsgl16, visibility none": a line for each part and what it would take.
+function missingOf(budgets: Budget[]): string[] {
+  const counts = new Map<string, { part: BudgetPart; count: number }>();
+  for (const part of budgets.flatMap((b) => b.parts).filter((p) => p.missing !== "")) {
+    const key = `${part.name}: ${part.missing}`;
+    counts.set(key, { part, count: (counts.get(key)?.count ?? 0) + 1 });
+  }
+  return [...counts.values()].map(({ part, count }) => `${part.name} of ${count === 1 ? "one case" : `${count} cases`}: ${part.missing}`);
+}
+
 interface Row {
   budget: Budget;
   part: BudgetPart;
@@ -91,12 +101,12 @@ export const budgetView: View = {
       if (lost) box.append(h("figcaption", {}, lost));
       return box;
     });
-    const missing = [...new Set(budgets.flatMap((b) => b.parts.map((p) => p.missing)))].filter((m) => m !== "");
+    const missing = missingOf(budgets);
     const rows: Row[] = budgets.flatMap((budget) => budget.parts.map((part) => ({ budget, part })));
     root.append(
       h("p", { class: "note" }, `${metric.title}${metric.unit ? "," + metric.unit : ""}: what it is when one approximation joins those above it. Errors of metrics do not add up in general; an increment may be below 0.`),
       h("div", { class: "grid" }, ...figures),
-      missing.length > 0 ? h("p", { class: "note" }, `Not run, hence in the next part: ${missing.join("; ")}.`) : "",
+      missing.length > 0 ? h("div", { class: "note" }, h("p", {}, "Not run, hence in the next part that was:"), h("ul", { class: "missing" }, ...missing.map((m) => h("li", {}, m)))) : "",
       table<Row>({
         caption: "Parts of the budgets", file: `${report.name}-budget`, rows, state: page.state, prefix: "budget",
         columns: [

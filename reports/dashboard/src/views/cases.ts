@@ -46,7 +46,7 @@ export const casesView: View = {
         state: page.state, prefix: "ca", marked: (c) => chosen.has(c),
         choose: (c) => {
           if (!chosen.delete(c)) chosen.add(c);
-          page.state.set({ c: [...chosen].join(",") });
+          page.state.set({ c: [...chosen].join(",") }, true);
         },
         chooseLabel: () => "select for the other views",
       }),

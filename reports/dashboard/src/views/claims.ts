@@ -94,7 +94,8 @@ function trialsTable(how: string, trials: Claim[]): HTMLElement[] {
 // Its trials are drawn when it is opened.
 function groupOf(g: ClaimGroup, open: boolean): HTMLElement {
   const counts = rulings.map((r) => [r, g.trials.filter((t) => rulingOf(t) === r).length] as const).filter(([, n]) => n > 0);
-  const said = g.trials.length > 1 ? counts.map(([r, n]) => `${n} ${r}`).join(", ") : "1 trial";
+  const shown = g.trials.length > 1 ? counts.map(([r, n]) => `${n} ${r}`).join(", ") : "1 trial";
+  const said = g.trials.length < g.tried ? `${shown}, of ${g.tried} trials` : shown;
   const out = h("details", { class: "claim", id: `claim-${g.claim}`, open },
     h("summary", {}, chip(g.ruling, null), h("span", { class: "text" }, g.text), h("span", { class: "soft" }, `${g.sources.join("; ")} · ${said}`)));
   const fill = () => {
@@ -133,7 +134,7 @@ export const claimsView: View = {
   draw(root, page) {
     const body = h("div");
     const fill = () => {
-      const claims = chosenClaims(page), groups = groupsOf(claims);
+      const claims = chosenClaims(page), groups = groupsOf(claims, allClaims(page));
       const open = page.state.get("cl.open") === "1" || groups.length <= fewGroups;
       const list = groups.length > 0 ? groups.map((g) => groupOf(g, open)) : [h("p", {}, "No claim is left by these filters.")];
       body.replaceChildren(summary(groups), ...list, trialsAsTable(page, claims));

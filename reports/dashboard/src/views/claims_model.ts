@@ -29,8 +29,9 @@ export interface ClaimGroup {
   claim: string;
   text: string;
   sources: string[];
-  ruling: Ruling; // of all trials together
-  trials: Claim[];
+  ruling: Ruling; // of all trials together, those that a filter hides too
+  tried: number; // how many these are
+  trials: Claim[]; // those that are shown
 }
 
 // What all certain trials say, else "holds in part"; "undecided" where none is certain: as `reproduce` has it.
@@ -42,16 +43,26 @@ function whole(trials: Claim[]): Ruling {
   return has("undecided") ? "undecided" : "not run";
 }
 
-export function groupsOf(claims: Claim[]): ClaimGroup[] {
-  const byName = new Map<string, Claim[]>();
-  for (const c of claims) byName.set(c.claim, [...(byName.get(c.claim) ?? []), c]);
-  return [...byName].map(([claim, trials]) => ({
+// A filter hides trials and whole claims, but changes no ruling: that is of `all`.
+export function groupsOf(shown: Claim[], all: Claim[]): ClaimGroup[] {
+  const every = byName(all);
+  return [...byName(shown)].map(([claim, trials]) => ({
     claim,
     text: trials[0].text,
     sources: [...new Set(trials.map((t) => t.source))],
-    ruling: whole(trials),
+    ruling: whole(every.get(claim) ?? trials),
+    tried: (every.get(claim) ?? trials).length,
     trials,
   }));
+}
+
+function byName(claims: Claim[]): Map<string, Claim[]> {
+  const out = new Map<string, Claim[]>();
+  for (const c of claims) {
+    if (!out.has(c.claim)) out.set(c.claim, []);
+    out.get(c.claim)!.push(c);
+  }
+  return out;
 }
 
 // "MFIS16" of "[MFIS16 §5, Tab. 1]".

@@ -226,7 +226,7 @@ export function frontChart(data: FrontData, reader: Reader): FrontChart {
     const r = box.getBoundingClientRect();
     activate(nearest(e.clientX - r.left, e.clientY - r.top));
   });
-  box.addEventListener("pointerleave", () => activate(null));
+  box.addEventListener("pointerleave", (e) => e.pointerType !== "touch" && activate(null)); // a finger's reading stays
   zoomByDragging(box, {
     frame: () => drawn.frame,
     zoom: (r) => zoom({ x0: drawn.toMs(r.x0), x1: drawn.toMs(r.x1), y0: drawn.toError(r.y1), y1: drawn.toError(r.y0) }),

@@ -44,7 +44,7 @@ function panelsOf(page: Page, history: History, c: HistoryChoice, set: Apply): {
     line.series.length === 1 ? set({ "hi.s": line.series[0], "hi.r": report }) : set({ "hi.l": "each", "hi.q": wordsFor(line), "hi.scene": line.scene });
   const charts = scenes.map((scene) => {
     const mine = lines.filter((l) => l.scene === scene);
-    return historyPanel({ ...shared, id: scene, lines: mine, title: `${scene}: ${c.column.title}, ${mine.length} ${c.means ? "methods" : "series"}`,
+    return historyPanel({ ...shared, id: scene, lines: mine, title: `${scene}: ${c.column.title}, ${mine.length} ${c.means ? (mine.length === 1 ? "method" : "methods") : "series"}`,
                           changes: changesIn(history, c.column.name, mine.flatMap((l) => l.series)),
                           height: scenes.length > 1 ? 280 : 400, marked: !c.means && mine.length <= 12, marker: -1, pick });
   });
@@ -103,6 +103,7 @@ export const historyView: View = {
   id: "history",
   title: "History",
   filters: ["methods"],
+  methods: ({ digest }) => [...new Set(digest.history?.series.map((s) => s.method))],
   has: (page) => (page.digest.history?.reports.length ?? 0) > 0,
   draw(root, page) {
     const history = page.digest.history!;

@@ -98,7 +98,8 @@ export function historyPanel(options: PanelOptions): Panel {
       options.zoom(Math.min(at.report, first.report), Math.max(at.report, first.report));
     else if (!dragged && at) options.pick(at.line, at.report);
   });
-  frame.addEventListener("pointerleave", () => { if (pressed === null) rest(); });
+  // A finger's reading stays until the next tap.
+  frame.addEventListener("pointerleave", (e) => { if (pressed === null && e.pointerType !== "touch") rest(); });
   frame.addEventListener("blur", rest);
   frame.addEventListener("keydown", (e) => {
     const here = now ?? (options.lines.length > 0 ? { line: options.lines[0], report: options.to } : null);

@@ -1,7 +1,9 @@
 // Colours of style.css for a canvas, which knows no variables, and word of a change between light and dark.
+// On paper all is light, whatever the page is.
 export function painter(): (colour: string) => string {
   const probe = document.createElement("span");
   probe.hidden = true;
+  if (printing) probe.style.colorScheme = "light";
   document.body.append(probe);
   const known = new Map<string, string>();
   queueMicrotask(() => probe.remove());
@@ -16,7 +18,16 @@ export function painter(): (colour: string) => string {
   };
 }
 
-// Calls `draw` when the theme has changed, as long as the element is in the page.
+let printing = false;
+const papers = new Set<() => void>();
+const print = (on: boolean) => () => {
+  printing = on;
+  for (const draw of papers) draw();
+};
+window.addEventListener("beforeprint", print(true));
+window.addEventListener("afterprint", print(false));
+
+// Calls `draw` when the theme has changed, and before and after printing, as long as the element is in the page.
 export function onTheme(element: Element, draw: () => void): void {
   const query = matchMedia("(prefers-color-scheme: dark)");
   const told = () => {
@@ -24,7 +35,9 @@ export function onTheme(element: Element, draw: () => void): void {
     else stop();
   };
   const root = new MutationObserver(told);
+  papers.add(told);
   const stop = () => {
+    papers.delete(told);
     root.disconnect();
     query.removeEventListener("change", told);
   };
