@@ -95,7 +95,9 @@ TEST_F(InterleaveTest, JoinedSharesAreTheWhole) {
     float all = 0;
     for (uint32_t set = 0; set < block * block; ++set) all += part.emplace_back(uniform());
     std::vector<glm::vec4> shares;
-    const auto irradiance = [](uint32_t x) { return is_right(x) ? glm::vec3(0.25f, 0, 3) : glm::vec3(1, 2, 0); };
+    const auto irradiance = [](uint32_t x) {
+      return is_right(x) ? glm::vec3(0.25f, 0, 3) : glm::vec3(1, 2, 0);
+    };
     for (uint32_t y = 0; y < kHeight; ++y) {
       for (uint32_t x = 0; x < kWidth; ++x) {
         const float weight = part[y % block * block + x % block] / all * static_cast<float>(block * block);
