@@ -1,7 +1,7 @@
-// The whole kd-tree over few centres, by one workgroup: what kd_bounds, kd_codes, the radix sort, kd_build and
-// kd_fit do for many, without the dispatches and barriers between them, which take longer than the work does.
-// Unlike kd_build, nodes are made from the root down, and none within a leaf; they lie in the order of their
-// levels, and are fitted from the last level to the first.
+// The whole kd-tree over few centres, by one workgroup: what kd_bounds, kd_codes, the radix sort, kd_build
+// and kd_fit do for many, without the dispatches and barriers between them, which take longer than the work
+// does. Unlike kd_build, nodes are made from the root down, and none within a leaf; they lie in the order of
+// their levels, and are fitted from the last level to the first.
 #version 460
 #include "kd_box.glsl"
 #include "kd_morton.glsl"
@@ -30,8 +30,8 @@ void everyone() {
   barrier();
 }
 
-// `words`: two sets of keys and values, of which the sort fills one from the other. When it is done, the first
-// set holds the nodes' first and last centres.
+// `words`: two sets of keys and values, of which the sort fills one from the other. When it is done, the
+// first set holds the nodes' first and last centres.
 uint key_at(uint set, uint i) { return 2u * set * count + i; }
 uint value_at(uint set, uint i) { return (2u * set + 1u) * count + i; }
 
@@ -44,8 +44,7 @@ Box all_centres() {
   lane_boxes[lane()] = own;
   for (uint half_size = LANES / 2u; half_size > 0u; half_size /= 2u) {
     barrier();
-    if (lane() < half_size)
-      lane_boxes[lane()] = united(lane_boxes[lane()], lane_boxes[lane() + half_size]);
+    if (lane() < half_size) lane_boxes[lane()] = united(lane_boxes[lane()], lane_boxes[lane() + half_size]);
   }
   barrier();
   return lane_boxes[0];
