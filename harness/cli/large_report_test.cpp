@@ -26,7 +26,7 @@ struct Spent {
 };
 
 Spent run(std::vector<std::string> arguments, const fs::path& out) {
-  arguments.insert(arguments.begin(), VSGLBENCH_PROGRAM);
+  arguments.insert(arguments.begin(), test_programme().string());
   std::vector<char*> argv;
   for (auto& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);
