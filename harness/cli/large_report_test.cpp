@@ -10,6 +10,7 @@
 
 #include "answer/large_report.h"
 #include "base/file.h"
+#include "base/test_folders.h"
 
 namespace vsglbench {
 namespace {
