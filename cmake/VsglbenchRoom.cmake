@@ -2,7 +2,7 @@
 #                [GPU_TESTS ...] [SLOW_TESTS ...])
 # One room of the house: a static library vsglbench_NAME with include root harness/, and one test
 # program per kind of test. GPU_TESTS carry the CTest label `gpu` (lavapipe counts), SLOW_TESTS
-# `gpu-slow`, which both `-L gpu` and `-L slow` match. PUBLIC_LIBRARY: a shared one, installed with its headers, that plugins link too.
+# `gpu-slow`, which both `-L gpu` and `-L slow` match; `gpu-tree` are those that need the source tree. PUBLIC_LIBRARY: a shared one, installed with its headers, that plugins link too.
 function(vsglbench_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
   if(VSGLBENCH_WERROR)  # restrict: GCC 12's false alarms in std::string
@@ -31,14 +31,23 @@ function(vsglbench_tests target kind labels)
     target_compile_options(${program} PRIVATE -O1)  # what is tested is optimised; the tests need not be
   endif()
   target_link_libraries(${program} PRIVATE ${target} GTest::gtest GTest::gtest_main ${VSGLBENCH_TEST_LINK})
-  target_compile_definitions(${program} PRIVATE VSGLBENCH_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-                                                VSGLBENCH_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  # Paths of this clone only where a source names them: a compiler cache serves the others to every clone.
+  foreach(source ${ARGN})
+    file(STRINGS ${source} uses REGEX "VSGLBENCH_(SOURCE|BINARY)_DIR" LIMIT_COUNT 1)
+    if(uses)
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS VSGLBENCH_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                   VSGLBENCH_BINARY_DIR="${CMAKE_BINARY_DIR}")
+    endif()
+  endforeach()
   set(environment)
   if(VSGLBENCH_SANITIZE AND labels MATCHES gpu)  # lavapipe and LLVM leak, in libraries that are unloaded by then
     set(environment ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
   endif()
   gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS "${labels}" TIMEOUT 900 ${environment})
+  if(labels STREQUAL "gpu")
+    vsglbench_install_test(${program})
+  endif()
 endfunction()
 
 function(vsglbench_room name)

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include "base/error.h"
@@ -125,7 +126,11 @@ namespace {
 // refused.
 fs::path source_tree(const fs::path& libraries) {
   std::error_code ec;
-  const fs::path built = VSGLBENCH_LIBRARY_DIR, source = VSGLBENCH_SOURCE_DIR;
+  std::istringstream written(read_text(libraries / "source-tree"));  // by CMake
+  std::string source_line, built_line;
+  std::getline(written, source_line);
+  std::getline(written, built_line);
+  const fs::path source = source_line, built = built_line;
   if (fs::equivalent(libraries, built, ec)) return source;
   const fs::path beside = (libraries / source.lexically_relative(built)).lexically_normal();
   if (fs::exists(beside / "harness" / "shaders", ec) && !fs::equivalent(beside, source, ec)) return beside;

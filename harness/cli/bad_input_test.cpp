@@ -110,10 +110,10 @@ class BrokenKernel : public CliTest {
  protected:
   // Puts `statement` into a copy of vpl's kernel, before it returns its light `v`.
   void edit(const std::string& statement) const {
-    const fs::path plugins = folder_ / "plugins", source = fs::path(VSGLBENCH_SOURCE_DIR) / "methods" / "vpl";
+    const fs::path plugins = folder_ / "plugins", source = data_root() / "methods" / "vpl";
     fs::create_directories(plugins / "vpl");
-    fs::copy_file(fs::path(VSGLBENCH_BINARY_DIR) / "lib" / "vsglbench" / "plugins" / "vpl.so",
-                  plugins / "vpl.so", fs::copy_options::overwrite_existing);
+    fs::copy_file(library_directory() / "vsglbench" / "plugins" / "vpl.so", plugins / "vpl.so",
+                  fs::copy_options::overwrite_existing);
     std::string text = read_text(source / "vpl.comp");
     text.insert(text.find("return v;"), statement + "\n");
     write_text(plugins / "vpl" / "vpl.comp", text);

@@ -15,7 +15,7 @@ class CopiedTreeTest : public CliTest {
   // Programme and libraries, to `build`.
   static void copy_build(const fs::path& build) {
     fs::create_directories(build / "bin");
-    fs::copy_file(VSGLBENCH_PROGRAM, build / "bin" / "vsglbench");
+    fs::copy_file(test_programme(), build / "bin" / "vsglbench");
     fs::copy(fs::path(VSGLBENCH_BINARY_DIR) / "lib", build / "lib", kDeep);
   }
   // Exit code of the copy, and what it said.

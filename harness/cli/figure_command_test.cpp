@@ -32,7 +32,7 @@ class FigureCommand : public ::testing::Test {
   void expect_failed_method(const std::string& method, const std::string& part) const {
     const auto out = folder_ / ("out-" + method);
     const Finished f =
-        finish(start({"--plugin-path", std::string(VSGLBENCH_BINARY_DIR) + "/bad-plugins", "figure",
+        finish(start({"--plugin-path", bad_plugins().string(), "figure",
                       file(lights_config(method, 4).dump()), "--out", out.string(), "--time-limit", "4"}));
     EXPECT_EQ(f.signal, 0);
     EXPECT_EQ(f.code, 1) << f.err;

@@ -10,6 +10,7 @@
 
 #include "answer/large_report.h"
 #include "base/file.h"
+#include "base/test_folders.h"
 
 namespace vsglbench {
 namespace {
@@ -26,7 +27,7 @@ struct Spent {
 };
 
 Spent run(std::vector<std::string> arguments, const fs::path& out) {
-  arguments.insert(arguments.begin(), VSGLBENCH_PROGRAM);
+  arguments.insert(arguments.begin(), test_programme().string());
   std::vector<char*> argv;
   for (auto& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);

@@ -153,7 +153,7 @@ TEST_F(LightsCommand, APluginThatCrashesOrHangsCostsItsOwnCase) {
                         {{"method", "hangs"}, {"frame", 1}},
                         {{"method", "mfis"}}};
   config_["time_limit_s"] = 8;
-  const fs::path bad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+  const fs::path bad = bad_plugins();
   const Finished f = lights({"--plugin-path", bad.string()});
   EXPECT_EQ(f.signal, 0);
   EXPECT_EQ(f.code, 1) << f.err;

@@ -18,7 +18,7 @@ TEST_F(CliTest, ATimeLimitThatIsNoNumberIsRefused) {
 }
 
 TEST_F(CliTest, CtrlCLeavesNoProcessOfAPlugin) {
-  const fs::path file = folder_ / "pid", bad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+  const fs::path file = folder_ / "pid", bad = bad_plugins();
   ::setenv("VSGLBENCH_TEST_PID", file.c_str(), 1);
   config_["methods"] = {{{"method", "faulty"}, {"fault", "holds"}}};
   const RunningProgramme child =

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "base/test_folders.h"
+
 namespace vsglbench {
 
 struct Finished {
@@ -64,7 +66,7 @@ inline rlim_t sanitizer_bytes() {
 }
 
 inline RunningProgramme start(const std::vector<std::string>& arguments, const Limits& limits = {}) {
-  std::vector<std::string> all = {VSGLBENCH_PROGRAM};
+  std::vector<std::string> all = {test_programme().string()};
   all.insert(all.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (auto& a : all) argv.push_back(a.data());

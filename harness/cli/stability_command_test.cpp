@@ -22,7 +22,7 @@ void expect_refused(const std::vector<std::string>& arguments, const std::string
   EXPECT_EQ(f.out, "");
 }
 
-const std::string kBadPlugins = VSGLBENCH_BINARY_DIR "/bad-plugins";
+const std::string kBadPlugins = bad_plugins();
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "papers/side_by_side.h"
 #include "report/table.h"
 #include "report/table_fill.h"
 
@@ -43,7 +44,7 @@ void fill(const TableCommand& command) {
   const auto files = files_with_tables(command.paths);
   for (const fs::path& file : files) {
     const std::string before = read_text(file);
-    const FilledText filled = fill_tables(file, before);
+    const FilledText filled = fill_tables(file, before, published_table);
     tables += filled.tables;
     const size_t line = first_other_line(before, filled.text);
     if (line == 0) continue;
@@ -83,7 +84,9 @@ void add_table_command(CLI::App& app) {
       "lines\n"
       "  <!-- table REPORT columns=smape,rmse across=method only=*/mfis/* -->\n"
       "  <!-- end of table -->\n"
-      "REPORT relative to the file, the rest as the options here.\n"
+      "REPORT relative to the file, the rest as the options here. <!-- published EXHIBIT scene=NAME "
+      "REPORT... "
+      "--> begins a\npaper's table with what each report has beside it; EXHIBIT as of `reproduce`.\n"
       "Example: vsglbench table reports/quick-lavapipe/report.json --columns smape,method --across method");
   command
       ->add_option("paths", options->paths,

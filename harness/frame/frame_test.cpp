@@ -160,20 +160,40 @@ TEST(Frame, NamesItsPassesInOrder) {
   EXPECT_EQ(names, expected);
 }
 
-// A pass's time covers its work: on lavapipe a timestamp without a barrier of its own misses it.
+struct TimesOfOneFrame {
+  double shade_ms, sum_ms, span_ms;
+};
+
+// Of the frame with the median span of three.
+TimesOfOneFrame typical_times(Session& session, uint32_t lights) {
+  FrameParameters p = small();
+  p.width = 128;
+  p.height = 72;
+  p.lights = lights;
+  auto frame = session.frame("mfis", p);
+  frame->render(0);
+  std::vector<TimesOfOneFrame> all;
+  for (int i = 0; i < 3; ++i) {
+    const FrameTimes times = frame->render(0);
+    const auto shade = std::ranges::find(times.passes, PassId{.stage = PassStage::shade}, &PassTime::pass);
+    all.push_back({shade->ms, times.sum_ms, times.span_ms});
+  }
+  std::ranges::nth_element(all, all.begin() + 1, {}, &TimesOfOneFrame::span_ms);
+  return all[1];
+}
+
+// Passes follow each other, so their sum is no more than the span; and a pass's time covers its work, so what
+// a frame takes longer for 16 times the lights, which are nearly all shading, is in the sum and in that pass,
+// not between two passes: on lavapipe a timestamp without a barrier of its own misses it. What share of a
+// frame that is, is the device's affair.
 TEST(Frame, PassTimesAddUpToTheSpan) {
   const Scene scene = load("cornell");
   Session session(scene);
-  FrameParameters p = small();
-  p.width = 256;
-  p.height = 144;
-  auto frame = session.frame("mfis", p);
-  frame->render(0);
-  const FrameTimes times = frame->render(0);
-  EXPECT_GT(times.sum_ms, 0.9 * times.span_ms);
-  EXPECT_LE(times.sum_ms, 1.0001 * times.span_ms);
-  const auto shade = std::ranges::find(times.passes, PassId{.stage = PassStage::shade}, &PassTime::pass);
-  EXPECT_GT(shade->ms, 0.2 * times.span_ms) << "36,864 pixels x 64 lights are most of this frame";
+  const TimesOfOneFrame few = typical_times(session, 64), many = typical_times(session, 1024);
+  for (const TimesOfOneFrame& t : {few, many}) EXPECT_LE(t.sum_ms, 1.0001 * t.span_ms);
+  EXPECT_GT(many.span_ms, few.span_ms);
+  EXPECT_GT(many.sum_ms - few.sum_ms, 0.9 * (many.span_ms - few.span_ms));
+  EXPECT_GT(many.shade_ms - few.shade_ms, 0.5 * (many.span_ms - few.span_ms));
 }
 
 TEST(Frame, OddSizesWork) {

@@ -29,8 +29,7 @@ inline std::string to_csv(const std::string& oracle, const std::vector<ErrorRow>
 // Errors by case.
 inline std::map<std::string, std::vector<double>> tabled_errors(const std::string& oracle) {
   std::map<std::string, std::vector<double>> table;
-  for (const auto& row : parse_csv(
-           read_text(std::filesystem::path(VSGLBENCH_SOURCE_DIR) / "harness/operation/approximations.csv"))) {
+  for (const auto& row : parse_csv(read_text(data_root() / "harness/operation/approximations.csv"))) {
     if (row.at(0) != oracle) continue;
     for (size_t k = 2; k < row.size(); ++k) table[row.at(1)].push_back(std::stod(row[k]));
   }

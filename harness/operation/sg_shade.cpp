@@ -14,7 +14,7 @@ namespace {
 using glm::dvec3;
 using std::numbers::pi;
 
-constexpr double kStep = 0x1p-21, kUnderflow = 0x1p-124;
+constexpr double kStep = 0x1p-21, kUnderflow = 0x1p-124;  // of four steps that may be flushed
 constexpr float kOpposed = 3.14159265f;
 
 // Unit, at this cosine from z.
@@ -107,21 +107,25 @@ double changes(const Scene& scene, double value, const std::function<double(cons
   return sum;
 }
 
-// Both lobes without exponential attenuation, at most; and their diffuse reflection at L = 1.
+// What a step of the kernel that underflows is multiplied by afterwards, at most: Vulkan lets a device flush
+// any result below 2^-126 to 0. The steps of a lobe: exp, times `scale`, times the receiver's reflection (of
+// three products), times the light's intensity, which comes last. And both lobes' diffuse reflection at L
+// = 1.
 struct Bounds {
-  double unattenuated = 0, full_diffuse = 0;
+  double after_flush = 0, full_diffuse = 0;
 };
 Bounds bounds(const Scene& scene) {
   const gpu::Vsgl& l = scene.light;
   const double distance2 = glm::dot(dvec3(l.mean), dvec3(l.mean));
   const double variance = std::max<double>(l.variance, distance2 * 0x1p-41), sharpness = distance2 / variance;
   const double albedo = scene.surface.diffuse.x, scale = 1 / (2 * pi * variance);
-  // In the specular lobe, peak · V n·l multiplies what may have underflown before.
   const double ndf = scene.surface.ndf,
                nv = std::max(glm::dot(scene.surface.normal, scene.surface.view), 0.01);
   const double peak = ndf > 0 ? 1 / (pi * ndf * ndf) : (2 - ndf) / (2 * pi);
   Bounds b;
-  b.unattenuated = scale * (l.diffuse.x + l.specular.x) * (4 + 0.5 * peak / nv);
+  // An integral times albedo is 4 or less, and peak · F V n·l times an integral 0.5 peak/nv.
+  const double reflection = 4 + 0.5 * peak / nv;
+  b.after_flush = (l.diffuse.x + l.specular.x) * (1 + reflection + scale * reflection);
   const auto add = [&](double intensity, const dvec3& axis, double lobe) {
     const auto p = exact::sg_product(glm::normalize(dvec3(l.mean)), sharpness, -axis, lobe);
     b.full_diffuse +=
@@ -200,7 +204,7 @@ Answer answer(const float* arguments, exact::DiffuseModel model) {
   a.value = shade(scene);
   a.scale = std::abs(a.value) + changes(scene, a.value, shade) / kStep;
   if (model != exact::DiffuseModel::cosine) a.scale += b.full_diffuse;
-  a.floor = kUnderflow * (1 + b.unattenuated);
+  a.floor = kUnderflow * (1 + b.after_flush);
   return a;
 }
 

@@ -25,7 +25,7 @@ class PlantedFault : public ::testing::Test {
   PlantedFault() : folder_(fs::temp_directory_path() / fmt::format("vsglbench-planted-{}", ::getpid())) {
     for (const char* part : {"harness", "methods", "configs", "scenes"}) {
       fs::create_directories(folder_ / "root" / part);
-      fs::copy(fs::path(VSGLBENCH_SOURCE_DIR) / part, folder_ / "root" / part, fs::copy_options::recursive);
+      fs::copy(data_root() / part, folder_ / "root" / part, fs::copy_options::recursive);
     }
     ::setenv("VSGLBENCH_ROOT", (folder_ / "root").c_str(), 1);
   }

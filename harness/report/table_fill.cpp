@@ -1,6 +1,7 @@
 #include "report/table_fill.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "base/file.h"
@@ -12,7 +13,8 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-constexpr std::string_view kBegin = "<!-- table ", kEnd = "<!-- end of table -->";
+constexpr std::string_view kBegin = "<!-- table ", kPublished = "<!-- published ",
+                           kEnd = "<!-- end of table -->";
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -37,12 +39,22 @@ void set(const std::string& word, TableOptions* options) {
 }
 
 // `marker`: the whole line.
-std::string table_for(const std::string& marker, const fs::path& folder) {
-  std::istringstream words(marker.substr(kBegin.size(), marker.rfind("-->") - kBegin.size()));
+std::string table_for(const std::string& marker, const fs::path& folder, const PublishedTable& published) {
+  const bool of_paper = marker.starts_with(kPublished);
+  const size_t begin = of_paper ? kPublished.size() : kBegin.size();
+  std::istringstream in(marker.substr(begin, marker.rfind("-->") - begin));
+  const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+  if (words.empty()) throw fail(ErrorKind::usage, "this table names no report");
+  if (of_paper && !published) throw fail(ErrorKind::usage, "published tables are not known here");
+  if (of_paper) return published(words, folder);
   TableOptions options;
-  words >> options.link;
-  for (std::string word; words >> word;) set(word, &options);
+  options.link = words[0];
+  for (size_t i = 1; i < words.size(); ++i) set(words[i], &options);
   return markdown_table(read_report(folder / options.link), options);
+}
+
+bool begins_table(const std::string& line) {
+  return line.starts_with(kBegin) || line.starts_with(kPublished);
 }
 
 bool is_skipped(const fs::path& folder) {
@@ -53,12 +65,12 @@ bool is_skipped(const fs::path& folder) {
 bool holds_table(const fs::path& file) {
   if (file.extension() != ".md") return false;
   const auto lines = split(read_text(file), '\n');
-  return std::ranges::any_of(lines, [](const std::string& line) { return line.starts_with(kBegin); });
+  return std::ranges::any_of(lines, begins_table);
 }
 
 }  // namespace
 
-FilledText fill_tables(const fs::path& path, const std::string& text) {
+FilledText fill_tables(const fs::path& path, const std::string& text, const PublishedTable& published) {
   FilledText out;
   size_t number = 0, opened = 0;  // lines; `opened`: of the marker whose end is awaited
   const auto wrong = [&](size_t line, const std::string& what) {
@@ -66,7 +78,7 @@ FilledText fill_tables(const fs::path& path, const std::string& text) {
   };
   for (const std::string& line : split(text, '\n')) {
     ++number;
-    const bool begins = line.starts_with(kBegin), ends = line == kEnd;
+    const bool begins = begins_table(line), ends = line == kEnd;
     if (begins && opened) throw wrong(opened, "this table has no end; close it with " + std::string(kEnd));
     if (ends && !opened) throw wrong(number, "this table has no beginning");
     if (begins) {
@@ -74,7 +86,7 @@ FilledText fill_tables(const fs::path& path, const std::string& text) {
       opened = number;
       out.tables++;
       try {
-        out.text += line + "\n\n" + table_for(line, path.parent_path()) + "\n";
+        out.text += line + "\n\n" + table_for(line, path.parent_path(), published) + "\n";
       } catch (const Error& e) {
         throw wrong(number, e.what());
       }

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "report/raster.h"
+
 namespace vsglbench {
 namespace {
 
@@ -51,6 +53,13 @@ std::string device_note(const Report& report) {
                      report.host.cpu, report.host.cores);
 }
 
+std::string raster_note(double ratio) {
+  return fmt::format(
+      "raster is slow on this device: drawing the G-buffer takes {:.0f} times as long as a compute pass that "
+      "writes as much; gbuffer and rsm are in frame ms and fixed ms alone, in no other sum",
+      ratio);
+}
+
 std::string source_note(const Report& report, const std::string& link) {
   return fmt::format("[report]({}) of {}, commit {}{}", link, report.created.substr(0, 10),
                      report.git.commit.substr(0, 7), report.git.dirty ? " with changes" : "");
@@ -76,6 +85,8 @@ std::vector<std::string> table_notes(const Report& report, const std::string& sh
   const std::string settings = setting_note(report, shared);
   if (!settings.empty()) out.push_back("every case: " + settings);
   out.push_back(device_note(report));
+  const double raster = raster_ratio(report).value_or(0);
+  if (report.device.type != "cpu" && raster >= kSlowRaster) out.push_back(raster_note(raster));
   const HostInfo& host = report.host;
   if (host.load_at_start && *host.load_at_start > 0.5 * host.cores) {
     out.push_back(fmt::format("the machine was busy when the run began: load {:.2f} on {} cores",

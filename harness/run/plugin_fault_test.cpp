@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace vsglbench {
 namespace {
 
-const fs::path kBad = fs::path(VSGLBENCH_BINARY_DIR) / "bad-plugins";
+const fs::path kBad = bad_plugins();
 // Before any test looks for methods: what was found is kept for the process.
 const bool kFindsThem = ::setenv("VSGLBENCH_PLUGINS", kBad.c_str(), 1) == 0;
 

@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "base/json.h"
+#include "base/test_folders.h"
 #include "report/report.h"
 
 namespace vsglbench {
@@ -28,7 +29,7 @@ class RunFixture : public ::testing::Test {
               fmt::format("vsglbench_{}_{}_{}", test->test_suite_name(), test->name(), ::getpid());
     std::filesystem::create_directories(folder_);
     out_ = folder_ / "out";
-    ::setenv("VSGLBENCH_CACHE", (std::filesystem::path(VSGLBENCH_BINARY_DIR) / "test-cache").c_str(), 1);
+    ::setenv("VSGLBENCH_CACHE", test_cache().c_str(), 1);
     ::unsetenv("VSGLBENCH_ASSETS");
     config_ = Json::parse(R"({"name": "tiny", "scenes": ["cornell"], "methods": [{"method": "vpl"}],
                               "frame": {"width": 32, "height": 18}, "rsm": 16, "N": 16, "importance_lights": 16,

@@ -16,7 +16,7 @@ namespace vsglbench {
 class PlantedTree {
  public:
   // Holds links to all files of the source tree.
-  PlantedTree() : source_(VSGLBENCH_SOURCE_DIR) {
+  PlantedTree() : source_(data_root()) {
     namespace fs = std::filesystem;
     root_ = fs::temp_directory_path() / ("vsglbench-planted-" + std::to_string(::getpid()));
     fs::remove_all(root_);
