@@ -1,6 +1,7 @@
 #include "base/json.h"
 
 #include "base/file.h"
+#include "base/printable.h"
 
 namespace vsglbench {
 namespace {
@@ -64,7 +65,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool key(string_t& k) override {
     Level& top = stack_.back();
     if (top.value->contains(k)) {
-      problem = fmt::format("the key '{}' stands here twice", k);
+      problem = fmt::format("the key '{}' stands here twice", excerpt(k));
       return false;
     }
     top.key = k;
@@ -74,7 +75,9 @@ class Builder : public nlohmann::json_sax<Json> {
   bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& e) override {
     const std::string what = e.what();
     const size_t colon = what.find(": ");  // drop "[json.exception…] parse error at line …"
-    problem = "not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2));
+    // It quotes the whole token that it stumbled over.
+    problem =
+        "not JSON: " + excerpt(colon == std::string::npos ? what : what.substr(colon + 2), 2 * kExcerpt);
     return false;
   }
 
@@ -190,8 +193,8 @@ int JsonDocument::line(std::string pointer) const {
 }
 
 Error JsonDocument::error(const std::string& pointer, const std::string& message) const {
-  const std::string where = pointer.empty() ? "" : fmt::format("'{}' ", pointer.substr(1));
-  return fail(kind_, "{}:{}: {}{}", name_, line(pointer), where, message);
+  const std::string where = pointer.empty() ? "" : fmt::format("'{}' ", excerpt(pointer.substr(1)));
+  return fail(kind_, "{}:{}: {}{}", name_, line(pointer), where, excerpt(message, kLongestMessage / 2));
 }
 
 }  // namespace vsglbench

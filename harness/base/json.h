@@ -45,10 +45,10 @@ class JsonDocument {
 };
 
 // Checks `value` (at `pointer` of `doc`) against a JSON Schema. Supported keywords: type, enum, const,
-// properties, required, additionalProperties (bool or schema), items, minItems, maxItems, minProperties,
-// minimum, maximum, exclusiveMinimum, exclusiveMaximum, minLength, pattern, oneOf, anyOf, $ref "#/$defs/x".
-// An unsupported keyword in the schema itself throws std::logic_error. Throws doc.error() for the first
-// violation; an unknown key names the nearest known one.
+// properties, propertyNames, required, additionalProperties (bool or schema), items, minItems, maxItems,
+// minProperties, minimum, maximum, exclusiveMinimum, exclusiveMaximum, minLength, maxLength, pattern, oneOf,
+// anyOf, $ref "#/$defs/x". An unsupported keyword in the schema itself throws std::logic_error. Throws
+// doc.error() for the first violation; an unknown key names the nearest known one.
 void check_schema(const JsonDocument& doc, const Json& schema);
 
 // All violations as "POINTER: MESSAGE", for values that have no file (a report about to be written).

@@ -1,24 +1,34 @@
 // The part of JSON Schema that this project's schemas use.
 #include "base/json.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
-#include <regex>
 #include <set>
 
+#include "base/json_number.h"
 #include "base/nearest.h"
+#include "base/pattern.h"
+#include "base/printable.h"
 
 namespace vsglbench {
 namespace {
 
 using Violation = std::function<void(const std::string& pointer, const std::string& message)>;
 
+// A value as a message shows it.
+std::string shown(const Json& v) {
+  if (v.is_object() || v.is_array()) return v.type_name();
+  return excerpt(v.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 bool has_type(const Json& v, const std::string& type) {
   if (type == "object") return v.is_object();
   if (type == "array") return v.is_array();
   if (type == "string") return v.is_string();
   if (type == "number") return v.is_number();
-  if (type == "integer") return v.is_number_integer();
+  if (type == "integer") return is_whole(v);
   if (type == "boolean") return v.is_boolean();
   if (type == "null") return v.is_null();
   throw std::logic_error("schema: unknown type " + type);
@@ -31,11 +41,16 @@ const Json& member(const Json& schema, const char* name) {
   return it == schema.end() ? none : *it;
 }
 
-// Compiled once: that takes longer than most searches.
-const std::regex& compiled(const std::string& pattern) {
-  thread_local std::map<std::string, std::regex> known;
+// Made once: that takes longer than most searches.
+const Pattern& compiled(const std::string& pattern) {
+  thread_local std::map<std::string, Pattern> known;
   const auto it = known.find(pattern);
-  return it != known.end() ? it->second : known.emplace(pattern, std::regex(pattern)).first->second;
+  return it != known.end() ? it->second : known.emplace(pattern, Pattern(pattern)).first->second;
+}
+
+size_t characters(const std::string& text) {
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 class SchemaChecker {
@@ -59,10 +74,15 @@ class SchemaChecker {
         check_alternatives(v, rule, at);
       } else if (v.is_object() && keyword == "required") {
         for (const auto& k : rule) check_required(v, schema, k.get<std::string>(), at);
+      } else if (v.is_object() && keyword == "propertyNames") {
+        for (const auto& [name, unused] : v.items()) check(Json(name), rule, at + "/" + pointer_token(name));
       } else if (v.is_number() && is_bound(keyword)) {
         check_bound(v.get<double>(), keyword, rule.get<double>(), at);
       } else if (keyword == "minItems" || keyword == "minProperties" || keyword == "maxItems") {
         check_count(v, keyword, rule.get<size_t>(), at);
+      } else if (v.is_string() && keyword == "maxLength") {
+        if (const size_t n = characters(v.get_ref<const std::string&>()), most = rule.get<size_t>(); n > most)
+          report_(at, fmt::format("has {} characters but may have {}", n, most));
       } else if (v.is_string() && keyword == "minLength") {
         if (v.get<std::string>().size() < rule.get<size_t>()) report_(at, "is empty or too short");
       } else if (v.is_string() && keyword == "pattern") {
@@ -81,10 +101,25 @@ class SchemaChecker {
     return k == "minimum" || k == "maximum" || k == "exclusiveMinimum" || k == "exclusiveMaximum";
   }
   static bool is_known(const std::string& k) {
-    static const std::set<std::string> known = {
-        "$schema",   "$id",      "$defs",   "title",      "description",         "default",
-        "examples",  "required", "minimum", "maximum",    "exclusiveMinimum",    "exclusiveMaximum",
-        "minLength", "pattern",  "items",   "properties", "additionalProperties"};
+    static const std::set<std::string> known = {"$schema",
+                                                "$id",
+                                                "$defs",
+                                                "title",
+                                                "description",
+                                                "default",
+                                                "examples",
+                                                "required",
+                                                "minimum",
+                                                "maximum",
+                                                "exclusiveMinimum",
+                                                "exclusiveMaximum",
+                                                "minLength",
+                                                "maxLength",
+                                                "pattern",
+                                                "items",
+                                                "properties",
+                                                "propertyNames",
+                                                "additionalProperties"};
     return known.count(k) > 0;
   }
   static bool is_of_type(const Json& v, const Json& schema) {
@@ -98,8 +133,7 @@ class SchemaChecker {
     }
     std::string wanted;
     for (const auto& t : types) wanted += (wanted.empty() ? "" : " or ") + t.get<std::string>();
-    report_(at, fmt::format("is {} but must be {}", v.is_object() || v.is_array() ? v.type_name() : v.dump(),
-                            wanted));
+    report_(at, fmt::format("is {} but must be {}", shown(v), wanted));
   }
   // What lacks a key often has it misspelt.
   void check_required(const Json& v, const Json& schema, const std::string& wanted, const std::string& at) {
@@ -109,7 +143,7 @@ class SchemaChecker {
       if (properties.contains(key) || edit_distance(key, wanted) > std::max<size_t>(2, key.size() / 2))
         continue;
       return report_(at + "/" + pointer_token(key),
-                     fmt::format("unknown key '{}'; did you mean '{}'?", key, wanted));
+                     fmt::format("unknown key '{}'; did you mean '{}'?", excerpt(key), wanted));
     }
     report_(at, fmt::format("lacks '{}'", wanted));
   }
@@ -119,8 +153,8 @@ class SchemaChecker {
       if (a == v) return;
       names.push_back(a.is_string() ? a.get<std::string>() : a.dump());
     }
-    const std::string got = v.is_string() ? v.get<std::string>() : v.dump();
-    report_(at, fmt::format("'{}' is not allowed{}", got, suggestion(got, names)));
+    const std::string got = v.is_string() ? v.get<std::string>() : shown(v);
+    report_(at, fmt::format("'{}' is not allowed{}", excerpt(got), suggestion(got, names)));
   }
   void check_alternatives(const Json& v, const Json& alternatives, const std::string& at) {
     std::vector<std::pair<std::string, std::string>> best;
@@ -139,14 +173,9 @@ class SchemaChecker {
     }
     for (const auto& [p, m] : best) report_(p, m);
   }
-  // The library's search recurses at each character.
   void check_pattern(const std::string& text, const std::string& pattern, const std::string& at) {
-    constexpr size_t kLongest = 4096;
-    if (text.size() > kLongest) {
-      report_(at, fmt::format("has {} bytes but may have {}", text.size(), kLongest));
-    } else if (!std::regex_search(text, compiled(pattern))) {
-      report_(at, fmt::format("'{}' does not match {}", text, pattern));
-    }
+    if (!compiled(pattern).search(text))
+      report_(at, fmt::format("'{}' does not match {}", excerpt(text), excerpt(pattern)));
   }
   void check_bound(double v, const std::string& keyword, double bound, const std::string& at) {
     if (keyword == "minimum" && !(v >= bound)) report_(at, fmt::format("{} must be at least {}", v, bound));
@@ -158,7 +187,8 @@ class SchemaChecker {
   }
   void check_count(const Json& v, const std::string& keyword, size_t n, const std::string& at) {
     if (keyword == "minItems" && v.is_array() && v.size() < n) {
-      report_(at, fmt::format("has {} items but needs {}", v.size(), n));
+      report_(at, v.empty() ? fmt::format("is an empty list; give at least {}", n)
+                            : fmt::format("has {} items but needs {}", v.size(), n));
     }
     if (keyword == "maxItems" && v.is_array() && v.size() > n) {
       report_(at, fmt::format("has {} items but may have {}", v.size(), n));
@@ -178,7 +208,7 @@ class SchemaChecker {
         if (rule.is_boolean() && !rule.get<bool>()) {
           std::vector<std::string> known;
           for (const auto& [k, unused] : properties.items()) known.push_back(k);
-          report_(child, fmt::format("unknown key '{}'{}", key, suggestion(key, known)));
+          report_(child, fmt::format("unknown key '{}'{}", excerpt(key), suggestion(key, known)));
         } else {
           check(value, rule, child);
         }

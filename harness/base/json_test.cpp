@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/json_number.h"
+
 using namespace vsglbench;
 
 namespace {
@@ -58,14 +60,56 @@ TEST(Json, SchemaErrorsSayLineAndNearestKey) {
   EXPECT_EQ(message_of([&] { check_schema(parse("{\"name\": \"x\", \"size\": 2}"), schema); }), "no error");
 }
 
-TEST(Json, ATextTooLongForItsPatternIsRefused) {
-  const auto message_for = [](size_t bytes) {
+TEST(Json, ATextOfAnyLengthIsHeldAgainstItsPattern) {
+  const auto message_for = [](const std::string& id) {
     const Json schema = Json::parse(kSchema);
-    return message_of(
-        [&] { check_schema(parse(R"({"name": "x", "id": ")" + std::string(bytes, 'a') + "\"}"), schema); });
+    return message_of([&] { check_schema(parse(R"({"name": "x", "id": ")" + id + "\"}"), schema); });
   };
-  EXPECT_EQ(message_for(4096), "no error");
-  EXPECT_EQ(message_for(1 << 20), "f.json:1: 'id' has 1048576 bytes but may have 4096");
+  EXPECT_EQ(message_for(std::string(1 << 20, 'a')), "no error");
+  EXPECT_EQ(message_for(std::string(1 << 20, 'A')), "f.json:1: 'id' '" + std::string(95, 'A') + "…" +
+                                                        std::string(24, 'A') + "' does not match ^[a-z]+$");
+}
+
+TEST(Json, AStringMayBeAsLongAsItsSchemaSays) {
+  const Json schema = Json::parse(R"({"properties": {"name": {"type": "string", "maxLength": 3}}})");
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"name": "äöü"})"), schema); }), "no error");
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"name": "abcd"})"), schema); }),
+            "f.json:1: 'name' has 4 characters but may have 3");
+  const Json names = Json::parse(R"({"type": "object", "propertyNames": {"maxLength": 2}})");
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"ab": 1})"), names); }), "no error");
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"abc": 1})"), names); }),
+            "f.json:1: 'abc' has 3 characters but may have 2");
+}
+
+TEST(Json, WholeNumbersAreIntegers) {
+  const Json schema = Json::parse(kSchema);
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"name": "x", "size": 16.0})"), schema); }), "no error");
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"name": "x", "size": 16.5})"), schema); }),
+            "f.json:1: 'size' is 16.5 but must be integer");
+  EXPECT_EQ(message_of([&] { check_schema(parse(R"({"name": "x", "size": 1e300})"), schema); }),
+            "f.json:1: 'size' is 1e+300 but must be integer");
+  EXPECT_EQ(with_integers(Json::parse(R"({"N": [16.0, 0.5, -0.0], "s": "1.0"})")).dump(),
+            R"({"N":[16,0.5,0],"s":"1.0"})");
+}
+
+// Whatever part of a file an error quotes: it is short, and nothing in it steers the terminal.
+TEST(Json, ErrorsQuoteNoMoreThanAnExcerpt) {
+  const Json schema = Json::parse(kSchema);
+  const std::string esc = "\\u001b[2J" + std::string(1 << 20, 'x');
+  for (const std::string& text :
+       {R"({"name": 1, ")" + esc + "\": 2}",               // a key
+        R"({"name": "x", "kind": ")" + esc + "\"}",        // a value of an enum
+        R"({"name": "x", "id": ")" + esc + "\"}",          // of a pattern
+        R"({"name": "x", "size": ")" + esc + "\"}",        // of another type
+        R"({"name": "x", "list": [")" + esc + "\"]}",      // in a list
+        R"({"name": ")" + esc + "\" \"",                   // before a fault of syntax
+        "{\"" + std::string(1 << 20, 'k') + "\x1b\": 1}",  // a token that is no JSON
+        R"({")" + esc + R"(": 1, ")" + esc + "\": 2}"}) {  // a key that stands twice
+    const std::string message = message_of([&] { check_schema(parse(text), schema); });
+    EXPECT_LT(message.size(), 600u) << message.substr(0, 200);
+    EXPECT_EQ(message.find('\x1b'), std::string::npos) << message.substr(0, 200);
+    EXPECT_EQ(message.rfind("f.json:1: ", 0), 0u) << message.substr(0, 200);
+  }
 }
 
 TEST(Json, ListsAllViolations) {

@@ -1,13 +1,17 @@
 #include "base/nearest.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
 
+#include "base/printable.h"
+
 namespace vsglbench {
+namespace {
+constexpr size_t kMostKnown = 60;  // of a list of names in a message
+}
 
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
@@ -27,6 +31,7 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  name = name.substr(0, kExcerpt);  // the time taken is a product of lengths
   const auto it = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });
@@ -36,10 +41,15 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(name, known);
   if (nearest.empty()) return "; none is known here";
+  name = name.substr(0, kExcerpt);
   if (edit_distance(name, nearest) <= std::max<size_t>(2, name.size() / 2)) {
-    return fmt::format("; did you mean '{}'?", nearest);
+    return fmt::format("; did you mean '{}'?", excerpt(nearest));
   }
-  return fmt::format("; known: {}", fmt::join(known, ", "));
+  std::string list;
+  const size_t shown = std::min(known.size(), kMostKnown);
+  for (size_t i = 0; i < shown; ++i) list += (i > 0 ? ", " : "") + excerpt(known[i]);
+  return fmt::format("; known: {}{}", list,
+                     shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
 }
 
 }  // namespace vsglbench

@@ -44,8 +44,10 @@ std::string printable(const std::string& text) {
     const Character c = first_character(rest);
     if (c.length == 0) {
       out += fmt::format("\\x{:02x}", static_cast<unsigned char>(rest[0]));
-    } else if (steers(c.code)) {
+    } else if (c.code == '\n' || c.code == '\r' || c.code == '\t') {
       out += ' ';
+    } else if (steers(c.code)) {
+      out += c.code < 0x80 ? fmt::format("\\x{:02x}", c.code) : fmt::format("\\u{:04x}", c.code);
     } else {
       out += rest.substr(0, c.length);
     }
@@ -63,6 +65,23 @@ std::string printable_lines(const std::string& text) {
     at = end + 1;
   }
   return out;
+}
+
+std::string excerpt(const std::string& text, size_t most) {
+  // No more is looked at than could be shown, from either end: a text may have megabytes.
+  const size_t bytes = 4 * most;
+  const bool is_long = text.size() > 2 * bytes;
+  const std::string head = printable(is_long ? text.substr(0, bytes) : text);
+  const auto starts = [](char c) { return (c & 0xC0) != 0x80; };
+  const size_t count = static_cast<size_t>(std::count_if(head.begin(), head.end(), starts));
+  if (!is_long && count <= most) return head;
+  // Of what is shown, a fifth is the end: names often differ there alone.
+  const size_t last = most / 5, first = most - last - 1;
+  const std::string tail = is_long ? printable(text.substr(text.size() - bytes)) : head;
+  size_t to = 0, from = tail.size();
+  for (size_t n = 0; to < head.size() && (n < first || !starts(head[to])); ++to) n += starts(head[to]);
+  for (size_t n = 0; from > 0 && n < last;) n += starts(tail[--from]);
+  return head.substr(0, to) + "…" + tail.substr(from);
 }
 
 }  // namespace vsglbench

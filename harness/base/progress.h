@@ -1,7 +1,9 @@
-// A progress bar with the time left, on a terminal; elsewhere a line of the log now and then.
+// A progress bar with the time left, on a terminal; elsewhere a line of the log now and then. A terminal that
+// can't move its cursor (TERM=dumb) gets nothing.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -20,11 +22,14 @@ class Progress {
   void draw(double fraction, const std::string& left);
   std::string label_;
   uint64_t total_, done_ = 0;
-  bool terminal_;
+  bool terminal_, silent_;
   double every_s_;  // between two bars or lines
   std::chrono::steady_clock::time_point start_, shown_;
   std::mutex mutex_;
 };
+
+// A bar on one line of a terminal that is so many columns wide.
+std::string progress_bar(double fraction, const std::string& left, const std::string& label, size_t columns);
 
 // "3 s", "2 min 5 s", "1 h 3 min".
 std::string format_duration(double seconds);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "cli/command.h"
 #include "run/config.h"
 #include "run/lights_run.h"
@@ -24,12 +25,12 @@ int print(const std::vector<LightsResult>& results) {
   for (const LightsResult& r : results) {
     if (r.status != Status::ok) {
       const bool fresh = told.insert(r.error).second;
-      fmt::print("{:<{}}  {:>4}  {}: {}\n", r.id, width, r.seed, name(r.status),
+      fmt::print("{:<{}}  {:>4}  {}: {}\n", printable(r.id), width, r.seed, name(r.status),
                  fresh ? r.error : "as said above");
       continue;
     }
     const auto& c = r.coverage;
-    fmt::print("{:<{}}  {:>4}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}  {:>9}\n", r.id, width, r.seed,
+    fmt::print("{:<{}}  {:>4}  {:>7}  {:>9}  {:>8}  {:>9}  {:>8}  {:>9}\n", printable(r.id), width, r.seed,
                r.lights - r.empty, c ? number(c->overlap) : "-", c ? number(c->gap) : "-",
                number(c ? c->pdf_overlap : std::nullopt), number(c ? c->pdf_gap : std::nullopt),
                r.kernels ? number(r.kernels->largest) : "-");

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/json.h"
+#include "base/printable.h"
 #include "cli/command.h"
 #include "figure/figure.h"
 #include "method/registry.h"
@@ -99,7 +100,8 @@ void print_text(const Json& rows) {
   size_t width = 0;
   for (const auto& row : rows) width = std::max(width, row["name"].get<std::string>().size());
   for (const auto& row : rows) {
-    fmt::print("{:<{}}  {}\n", row["name"].get<std::string>(), width, row["summary"].get<std::string>());
+    fmt::print("{:<{}}  {}\n", printable(row["name"].get<std::string>()), width,
+               printable(row["summary"].get<std::string>()));
     const std::string indent(width + 2, ' ');
     for (const auto& p : row.value("parameters", Json::array())) {
       const std::string range =
@@ -117,10 +119,10 @@ void print_text(const Json& rows) {
     if (row.contains("views")) {
       std::string views;
       for (const auto& v : row["views"]) views += (views.empty() ? "" : ", ") + v.get<std::string>();
-      fmt::print("{}views: {}\n", indent, views);
+      fmt::print("{}views: {}\n", indent, printable(views));
     }
     if (!row.value("present", true))
-      fmt::print("{}not on this machine: {}\n", indent, row["get_it"].get<std::string>());
+      fmt::print("{}not on this machine: {}\n", indent, printable(row["get_it"].get<std::string>()));
     if (row.contains("missing") && !row["missing"].empty())
       fmt::print("{}lacks {}\n", indent, row["missing"].dump());
   }

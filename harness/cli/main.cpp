@@ -27,7 +27,8 @@ namespace {
 using namespace vsglbench;
 
 int report(const std::string& message, int code) {
-  std::fputs(("vsglbench: " + printable(message) + "\n").c_str(), stderr);  // never throws, unlike fmt::print
+  std::fputs(("vsglbench: " + excerpt(message, kLongestMessage) + "\n").c_str(),
+             stderr);  // never throws, unlike fmt::print
   return code;
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <regex>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/pattern.h"
 #include "cli/command.h"
 #include "method/registry.h"
 
@@ -29,8 +29,8 @@ std::string replace_all(std::string text, const std::string& what, const std::st
 
 // A word of a shell's command line.
 std::string quoted(const std::string& word) {
-  static const std::regex plain("[A-Za-z0-9_./:=@%+,-]+");
-  return std::regex_match(word, plain) ? word : "'" + replace_all(word, "'", "'\\''") + "'";
+  static const Pattern plain("^[A-Za-z0-9_./:=@%+,-]+$");
+  return plain.search(word) ? word : "'" + replace_all(word, "'", "'\\''") + "'";
 }
 
 // Neither CMake nor a printed command can hold such a path.
@@ -45,7 +45,7 @@ void refuse_odd_folder(const fs::path& dir) {
 
 NewMethod checked(const std::string& name, const fs::path& dir) {
   refuse_odd_folder(dir);
-  if (!std::regex_match(name, std::regex("[a-z][a-z0-9]*(-[a-z0-9]+)*"))) {
+  if (!Pattern("^[a-z][a-z0-9]*(-[a-z0-9]+)*$").search(name)) {
     throw fail(ErrorKind::usage,
                "'{}' can't name a method; use lower-case letters, digits and single dashes, as in my-method",
                name);

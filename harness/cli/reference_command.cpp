@@ -1,12 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 #include "base/percent.h"
+#include "base/printable.h"
 #include "base/progress.h"
 #include "cli/command.h"
-#include "image/exr.h"
-#include "image/png.h"
+#include "image/labelled.h"
+#include "image/metrics.h"
 #include "reference/cache.h"
+#include "report/environment.h"
 #include "run/memory.h"
 #include "run/references.h"
 #include "run/runner.h"
@@ -40,25 +46,46 @@ std::string check_floor(const std::string& text) {
   return floor > 0 && floor < 200 ? "" : "give percent of SMAPE, above 0 and under 200, such as 2%";
 }
 
+void write_images(const ReferenceOptions& options, const Scene& scene, const ReferenceResult& r,
+                  const std::string& stem) {
+  Labels labels = radiance_labels();
+  labels.insert({{"content", "indirect radiance, ray-traced reference"},
+                 {"scene", scene.name},
+                 {"sceneHash", scene.hash},
+                 {"reference", r.hash},
+                 {"samples", fmt::format("{}", r.samples)},
+                 {"seed", fmt::format("{}", options.parameters.seed)},
+                 {"software", "vsglbench, commit " + build_git().commit}});
+  write_exr(options.out / (stem + ".reference.exr"), r.mean, r.mask, labels);
+  const float exposure = auto_exposure(r.mean, r.mask);
+  labels.erase("A");
+  labels["exposure"] = fmt::format("{}", exposure);
+  write_png(options.out / (stem + ".reference.png"), tone_map(r.mean, exposure), labels);
+}
+
 void compute(const ReferenceOptions& options) {
   const ReferenceParameters parameters = resolved(options);
   ensure_writable_directory(options.out);
   const Scene scene = load_scene(options.scene, {data_root() / "scenes", assets_directory(options.assets)});
+  for (const std::string& warning : scene.warnings) log_warning("{}: {}", scene.name, warning);
   require_reference_memory(parameters.width, parameters.height);
   bool cached = false;
   const ReferenceResult r = load_or_compute(scene, parameters, &cached);
   const std::string stem = file_name(scene.name) + (options.no_occlusion ? ".no-occlusion" : "");
-  write_exr(options.out / (stem + ".reference.exr"), r.mean, r.mask);
-  write_png(options.out / (stem + ".reference.png"), r.mean, auto_exposure(r.mean, r.mask));
+  write_images(options, scene, r, stem);
+  if (std::ranges::all_of(r.mean.pixels, [](const glm::vec3& p) { return p == glm::vec3(0); })) {
+    throw fail(ErrorKind::case_failed, "{}: no indirect light reaches the view: the reference is black",
+               scene.name);
+  }
   fmt::print(
       "{}{}: {} triangles, {} samples in {} batches{}, {:.1f} M rays in {} ({}), noise floor {:.2f} % "
       "SMAPE{}, "
       "standard error of the mean {:.3f} %, hash {}\n",
-      scene.name, options.no_occlusion ? " without occlusion" : "", scene.triangles.size(), r.samples,
-      r.batches, rounding_of(r, parameters), static_cast<double>(r.rays) * 1e-6, format_duration(r.seconds),
-      cached ? "from the cache" : "computed", r.noise_floor_smape, end_of_search(r, parameters),
-      100 * r.standard_error, r.hash);
-  fmt::print("{}\n", (options.out / (stem + ".reference.exr")).string());
+      printable(scene.name), options.no_occlusion ? " without occlusion" : "", scene.triangles.size(),
+      r.samples, r.batches, rounding_of(r, parameters), static_cast<double>(r.rays) * 1e-6,
+      format_duration(r.seconds), cached ? "from the cache" : "computed", r.noise_floor_smape,
+      end_of_search(r, parameters), 100 * r.standard_error, r.hash);
+  fmt::print("{}\n", printable((options.out / (stem + ".reference.exr")).string()));
 }
 
 }  // namespace

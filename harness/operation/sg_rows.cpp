@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace vsglbench {
 namespace {
@@ -56,7 +57,7 @@ std::vector<float> parse_sg_rows(const SgQuestion& q, const std::string& name, s
       double value = 0;
       const auto [end, error] = std::from_chars(read[k].data(), read[k].data() + read[k].size(), value);
       if (error != std::errc() || end != read[k].data() + read[k].size()) {
-        throw refuse(fmt::format("{}: \"{}\" is not a number", columns[k], read[k]));
+        throw refuse(fmt::format("{}: \"{}\" is not a number", columns[k], excerpt(std::string(read[k]))));
       }
       row[k] = static_cast<float>(value);
     }

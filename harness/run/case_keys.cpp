@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/json_number.h"
 #include "run/pdf_source.h"
 
 namespace vsglbench {
@@ -43,7 +44,7 @@ CaseKey count(const Row& row, uint32_t FrameParameters::*field, uint32_t minimum
   key.schema = {{"type", "integer"}, {"minimum", minimum}, {"maximum", maximum}};
   key.values = fmt::format("{} … {}", minimum, maximum);
   key.read = [=](const Json& value, FrameParameters* frame) {
-    if (!value.is_number_integer() || value.get<double>() < minimum || value.get<double>() > maximum)
+    if (!is_whole(value) || value.get<double>() < minimum || value.get<double>() > maximum)
       throw fail(ErrorKind::config, "{} must be an integer within {} … {}", value.dump(), minimum, maximum);
     frame->*field = value.get<uint32_t>();
   };
@@ -102,7 +103,7 @@ CaseKey choice(const Row& row, Enum FrameParameters::*field, Enum (*parse)(const
 CaseKey text(const Row& row, std::string FrameParameters::*field, const std::string& values) {
   CaseKey key = key_of(row);
   key.default_value = FrameParameters().*field;
-  key.schema = {{"type", "string"}, {"minLength", 1}};
+  key.schema = {{"type", "string"}, {"minLength", 1}, {"maxLength", 4096}};
   key.values = values;
   key.read = [=](const Json& value, FrameParameters* frame) {
     if (!value.is_string() || value.get<std::string>().empty())

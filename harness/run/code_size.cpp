@@ -1,6 +1,6 @@
 #include "run/code_size.h"
 
-#include <regex>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -90,6 +90,22 @@ size_t count_lines(const std::string& text) {
   return lines + code;
 }
 
+namespace {
+
+// What a text includes by #include "NAME".
+std::vector<std::string> included(const std::string& text) {
+  constexpr std::string_view kDirective = "#include \"";
+  std::vector<std::string> out;
+  for (size_t at = 0; (at = text.find(kDirective, at)) != std::string::npos;) {
+    at += kDirective.size();
+    const size_t end = text.find_first_of("\"\n", at);
+    if (end != std::string::npos && text[end] == '"' && end > at) out.push_back(text.substr(at, end - at));
+  }
+  return out;
+}
+
+}  // namespace
+
 std::set<fs::path> include_closure(const fs::path& file, const std::vector<fs::path>& include_dirs) {
   std::set<fs::path> found;
   std::vector<fs::path> left = {file};
@@ -100,13 +116,12 @@ std::set<fs::path> include_closure(const fs::path& file, const std::vector<fs::p
     if (!fs::is_regular_file(next, ec) || !found.insert(next).second) continue;
     if (next.extension() == ".h") left.push_back(fs::path(next).replace_extension(".cpp"));
     const std::string text = read_text(next);
-    static const std::regex include("#include \"([^\"]+)\"");
-    for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
+    for (const std::string& name : included(text)) {
       std::vector<fs::path> dirs = {next.parent_path()};
       dirs.insert(dirs.end(), include_dirs.begin(), include_dirs.end());
       for (const auto& dir : dirs) {
-        if (!fs::is_regular_file(dir / (*at)[1].str(), ec)) continue;
-        left.push_back(dir / (*at)[1].str());
+        if (!fs::is_regular_file(dir / name, ec)) continue;
+        left.push_back(dir / name);
         break;
       }
     }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_number.h"
 #include "base/nearest.h"
 #include "base/percent.h"
 #include "run/case_keys.h"
@@ -270,7 +271,8 @@ Config load_config(const fs::path& path, const Overrides& overrides, const std::
                                             path.stem().string()));
   }
   check_keys(file);
-  const JsonDocument doc = at_scale(file, scale);
+  const JsonDocument scaled = at_scale(file, scale);
+  const JsonDocument doc = scaled.patched(with_integers(scaled.root()));
   Json root = doc.root();
   apply(overrides, &root);
   Config config;

@@ -11,7 +11,9 @@
 #include "image/contact.h"
 #include "image/error_map.h"
 #include "image/exr.h"
+#include "image/labelled.h"
 #include "image/png.h"
+#include "report/environment.h"
 
 namespace fs = std::filesystem;
 
@@ -30,34 +32,65 @@ std::string parameters_of(const C& c) {
 
 // An EXR, coverage in its channel A, with its preview; the EXR's path.
 std::string write_pair(const fs::path& out, const std::string& stem, const Image& image, const Mask& mask,
-                       float exposure) {
-  write_exr(out / (stem + ".exr"), image, mask);
-  write_png(out / (stem + ".png"), image, exposure);
+                       float exposure, Labels labels) {
+  write_exr(out / (stem + ".exr"), image, mask, labels);
+  labels.erase("A");
+  labels["exposure"] = fmt::format("{}", exposure);
+  write_png(out / (stem + ".png"), tone_map(image, exposure), labels);
   return stem + ".exr";
 }
 
-std::string write_reference(const fs::path& out, const std::string& scene, const ReferenceResult& reference,
+// What every image of a scene says of itself.
+Labels scene_labels(const SceneReport& scene, const std::string& content) {
+  const GitState git = build_git();
+  Labels labels = radiance_labels();
+  labels.insert({{"content", content},
+                 {"scene", scene.name},
+                 {"sceneHash", scene.hash},
+                 {"software", "vsglbench, commit " + git.commit + (git.dirty ? " and changes" : "")}});
+  return labels;
+}
+
+Labels labels_of(const SceneReport& scene, const ReferenceResult& reference) {
+  Labels labels = scene_labels(scene, "indirect radiance, ray-traced reference");
+  labels.insert({{"reference", reference.hash}, {"samples", fmt::format("{}", reference.samples)}});
+  return labels;
+}
+
+std::string write_reference(const fs::path& out, const SceneReport& scene, const ReferenceResult& reference,
                             float exposure) {
-  const std::string stem = fmt::format("{}/reference-{}", scene_folder(scene), reference.hash.substr(0, 8));
+  const std::string stem =
+      fmt::format("{}/reference-{}", scene_folder(scene.name), reference.hash.substr(0, 8));
   std::error_code ec;
   if (fs::exists(out / (stem + ".exr"), ec) && fs::exists(out / (stem + ".png"), ec)) return stem + ".exr";
-  return write_pair(out, stem, reference.mean, reference.mask, exposure);
+  return write_pair(out, stem, reference.mean, reference.mask, exposure, labels_of(scene, reference));
 }
 
 // Image and error map; their paths, and the reference's.
-std::map<std::string, std::string> write_case(const fs::path& out, const CaseRun& run, float exposure,
+std::map<std::string, std::string> write_case(const fs::path& out, const SceneReport& scene,
+                                              const CaseRun& run, float exposure,
                                               const std::string& reference) {
   const Case& c = run.description();
   const std::string stem = image_stem(c);
-  const Image error = error_map(*run.image(), run.reference()->mean, run.mask());
-  write_exr(out / (stem + ".error.exr"), error, run.mask());
-  write_png(out / (stem + ".error.png"), color_error_map(error, ContactSheet().error_range, run.mask()));
+  Labels labels = scene_labels(scene, "indirect radiance of a case");
+  labels.insert({{"case", c.id}, {"seed", "0"}, {"reference", run.reference()->hash}});
   std::map<std::string, std::string> images = {
-      {"indirect", write_pair(out, stem + ".indirect", *run.image(), run.mask(), exposure)},
+      {"indirect", write_pair(out, stem + ".indirect", *run.image(), run.mask(), exposure, labels)},
       {"error", stem + ".error.exr"},
       {"reference", reference}};
-  if (run.cancellation())
-    images["cancellation"] = write_pair(out, stem + ".cancellation", *run.cancellation(), run.mask(), 1);
+  const Image error = error_map(*run.image(), run.reference()->mean, run.mask());
+  labels["content"] = "signed error of a case against its reference";
+  labels["units"] = "1: (x - r) / ((|x| + |r|) / 2) of luminance";
+  write_exr(out / (stem + ".error.exr"), error, run.mask(), labels);
+  Labels drawn = labels;
+  drawn.erase("A");
+  write_png(out / (stem + ".error.png"), color_error_map(error, ContactSheet().error_range, run.mask()),
+            drawn);
+  if (!run.cancellation()) return images;
+  labels["content"] = "share of the lights that a pixel shades with exact BRDFs [VSGL14 Fig. 6]";
+  labels["units"] = "1";
+  images["cancellation"] =
+      write_pair(out, stem + ".cancellation", *run.cancellation(), run.mask(), 1, labels);
   return images;
 }
 
@@ -192,9 +225,9 @@ void SceneImages::start(CaseRun& run) {
   const auto failed = [&](ErrorKind kind, const std::string& message) { run.fail_in_the_end(kind, message); };
   guarded(
       [&] {
-        const std::string reference = write_reference(out_, scene_->name, *run.reference(), exposure);
+        const std::string reference = write_reference(out_, *scene_, *run.reference(), exposure);
         open_[&run] = std::async(std::launch::async, [this, &run, exposure, reference] {
-          return write_case(out_, run, exposure, reference);
+          return write_case(out_, *scene_, run, exposure, reference);
         });
       },
       failed);
@@ -216,7 +249,8 @@ void SceneImages::write_direct(Frame& frame) {
   guarded(
       [&] {
         write_pair(out_, scene_folder(scene_->name) + "/direct", frame.render_direct(),
-                   frame.results().surface_mask(), static_cast<float>(scene_->exposure));
+                   frame.results().surface_mask(), static_cast<float>(scene_->exposure),
+                   scene_labels(*scene_, "direct radiance"));
       },
       warn);
 }

@@ -14,10 +14,11 @@ namespace vsglbench {
 //
 // Read: the default scene (or, where the file names none, its first; without scenes, all root nodes) with
 // its node hierarchy, transformed in double; triangles, strips and fans; indices of any type or none; sparse
-// accessors; base colour, metallic-roughness and normal textures (PNG, JPEG; file, data URI, buffer view);
-// alpha masks; the extension KHR_mesh_quantization. Missing normals become flat ones, as the specification
-// asks; missing tangents are made from the uvs. What is ignored or repaired is listed in scene->warnings.
-// Anything malformed, and any other required extension, throws Error(scene): one line with file and thing.
+// accessors; skins at rest; base colour, metallic-roughness and normal textures (PNG, JPEG; file, data URI,
+// buffer view); alpha masks; the extensions KHR_mesh_quantization, KHR_texture_transform and
+// EXT_mesh_gpu_instancing. Missing normals become flat ones, as the specification asks; missing tangents are
+// made from the uvs. What is ignored or repaired is listed in scene->warnings. Anything malformed, and any
+// required extension that would change what is read, throws Error(scene): one line with file and thing.
 void load_gltf(const std::filesystem::path& path, double unit_scale, Scene* scene);
 
 }  // namespace vsglbench

@@ -107,7 +107,8 @@ ByteRange view_bytes(const GltfFile& file, int buffer_view, const std::string& w
   return {buffer.data.data() + view.byteOffset, view.byteLength};
 }
 
-std::vector<double> read_accessor(const GltfFile& file, int index, int components, const std::string& what) {
+std::vector<double> read_accessor(const GltfFile& file, int index, int components, const std::string& what,
+                                  Numbers numbers) {
   const auto& accessor = element(file, file.model.accessors, index, what + ": accessor");
   if (tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)) != components) {
     throw file.error("{}: accessor {} does not have {} components", what, index, components);
@@ -137,7 +138,7 @@ std::vector<double> read_accessor(const GltfFile& file, int index, int component
     values.assign(accessor.count * components, 0.0);
   }
   if (accessor.sparse.isSparse) apply_sparse(file, accessor, components, what, &values);
-  for (size_t i = 0; i < values.size(); ++i) {
+  for (size_t i = 0; numbers == Numbers::finite && i < values.size(); ++i) {
     if (!std::isfinite(values[i])) throw file.error("{}: element {} is not finite", what, i / components);
   }
   return values;

@@ -134,6 +134,7 @@ TEST_F(GltfBadInput, Textures) {
   json_["textures"] = {{{"source", 0}}};
   json_["materials"] =
       Json::parse(R"([{"name": "wood", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+  primitive()["material"] = 0;
   EXPECT_TRUE(contains(problem(), "wood"));
   EXPECT_TRUE(contains(problem(), "absent.png"));
   write("absent.png", "this is no image");
@@ -143,7 +144,7 @@ TEST_F(GltfBadInput, Textures) {
   EXPECT_TRUE(contains(after("/materials/0/pbrMetallicRoughness/baseColorTexture/index", 3), "past the 1"));
   EXPECT_TRUE(contains(after("/textures/0/source", 8), "past the 1"));
   EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 0}}), "is not an image"));
-  EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 50}}), "bufferView"));
+  EXPECT_TRUE(contains(after("/images/0", {{"bufferView", 50}}), "image 0: buffer view: index 50"));
   EXPECT_TRUE(contains(after("/materials/0/alphaMode", "SHINY"), "SHINY"));
 }
 
@@ -180,9 +181,79 @@ TEST_F(GltfBadInput, NoTriangles) {
   EXPECT_TRUE(contains(problem(), "no POSITION"));
 }
 
-TEST_F(GltfBadInput, UnknownRequiredExtension) {
-  json_["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  EXPECT_TRUE(contains(problem(), "requires the extension KHR_draco_mesh_compression"));
+TEST_F(GltfBadInput, RequiredExtensionsAreNamedWithTheCommandThatRemovesThem) {
+  const auto requiring = [&](const char* name) { return after("/extensionsRequired", {name}); };
+  const std::pair<const char*, const char*> commands[] = {
+      {"KHR_draco_mesh_compression", "cli copy IN.glb OUT.glb` decompresses"},
+      {"EXT_meshopt_compression", "cli copy IN.glb OUT.glb` decompresses"},
+      {"KHR_texture_basisu", "cli ktxdecompress IN.glb OUT.glb` turns"},
+      {"EXT_texture_webp", "cli png IN.glb OUT.glb --formats '*'` turns"}};
+  for (const auto& [name, command] : commands) {
+    EXPECT_TRUE(contains(requiring(name), fmt::format("requires the extension {}, which is not read", name)));
+    EXPECT_TRUE(contains(requiring(name), command));
+  }
+  EXPECT_TRUE(contains(requiring("ACME_new"), "requires the extension ACME_new, which is not read"));
+  // What Draco's writers leave of a primitive: accessors without bytes.
+  json_["accessors"][3].erase("bufferView");
+  EXPECT_TRUE(contains(requiring("KHR_draco_mesh_compression"), "requires the extension KHR_draco"));
+}
+
+TEST_F(GltfBadInput, OtherVersionsAreNamed) {
+  EXPECT_TRUE(contains(after("/asset/version", "1.0"), "is glTF version 1.0, but only version 2 is read"));
+  EXPECT_TRUE(contains(after("/asset/version", "3.0"), "is glTF version 3.0, but only version 2 is read"));
+  EXPECT_TRUE(contains(after("/asset/minVersion", "2.1"), "needs a reader of glTF version 2.1"));
+  EXPECT_TRUE(contains(after("/asset/minVersion", "3.0"), "is glTF version 3.0"));
+  EXPECT_EQ(after("/asset/version", "2.1"), "") << "a minor version of a reader's own major one";
+  EXPECT_TRUE(contains(after("/asset", Json::object()), "no asset.version"));
+  std::string bytes = glb_bytes();
+  for (const char version : {1, 3}) {
+    bytes[4] = version;
+    write("old.glb", bytes);
+    EXPECT_TRUE(contains(problem_of((folder_ / "old.glb").string()),
+                         fmt::format("is glTF version {}, but only version 2 is read", int(version))));
+  }
+}
+
+// Every kind of string that a file has: none is quoted at length, and none steers the terminal.
+TEST_F(GltfBadInput, NamesAreExcerpts) {
+  const std::string bad = "\x1b[2J" + std::string(1 << 20, 'n');
+  const auto is_short = [](const std::string& text) {
+    EXPECT_NE(text, "");
+    EXPECT_LT(text.size(), 700u) << text.substr(0, 300);
+    EXPECT_EQ(text.find('\x1b'), std::string::npos) << text.substr(0, 300);
+  };
+  json_["meshes"][0]["name"] = bad;
+  is_short(after("/meshes/0/primitives/0/mode", 9));
+  json_["nodes"][0]["name"] = bad;
+  is_short(after("/nodes/0/rotation", {0, 0, 0, 0}));
+  is_short(after("/extensionsRequired", {bad}));
+  is_short(after("/extensionsUsed", {7}));
+  is_short(after("/asset/version", bad));
+  is_short(after("/accessors/0/type", bad));
+  textured();
+  json_["materials"][0]["name"] = bad;
+  is_short(after("/materials/0/alphaMode", bad));
+  is_short(after("/images/0", {{"uri", bad}}));
+  is_short(after("/images/0", {{"uri", "data:image/png;base64," + std::string(2 << 20, 'A')}}));
+  is_short(after("/images/0", {{"uri", "data:image/png;base64,AAAA"}, {"name", bad}}));
+  is_short(after("/images/0", {{"uri", "data:" + bad}}));
+}
+
+TEST_F(GltfBadInput, BuffersThatAreNotThere) {
+  const auto with = [&](const Json& buffer) {
+    write_gltf();
+    Json json = json_;
+    json["buffers"][0] = buffer;
+    write("scene.gltf", json.dump());
+    return problem_of((folder_ / "scene.gltf").string());
+  };
+  EXPECT_TRUE(contains(with({{"uri", "data.bin"}}), "buffer 0: its byteLength is no number of bytes"));
+  EXPECT_TRUE(contains(with({{"uri", "data.bin"}, {"byteLength", -1}}), "byteLength"));
+  EXPECT_TRUE(contains(with({{"byteLength", 4}}), "buffer 0: has no uri"));
+  EXPECT_TRUE(contains(with({{"uri", "https://x.org/data.bin"}, {"byteLength", 4}}), "must lie beside"));
+  EXPECT_TRUE(contains(with({{"uri", "data:,abc"}, {"byteLength", 4}}), "its data URI has 3 bytes"));
+  EXPECT_TRUE(contains(with({{"uri", "data:abc"}, {"byteLength", 4}}), "no comma"));
+  EXPECT_TRUE(contains(with({{"uri", std::string(100000, 'n')}, {"byteLength", 4}}), "is missing"));
 }
 
 TEST_F(GltfBadInput, DeepNesting) {

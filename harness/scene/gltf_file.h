@@ -4,6 +4,7 @@
 #include <tiny_gltf.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,21 @@ struct GltfFile {
   }
   // Adds a warning unless it is already listed.
   void warn(const std::string& message);
+  // Of many warnings of a kind only the first is listed, with how many there are besides.
+  void warn_once(const std::string& kind, const std::string& message);
+  void end_warnings();  // lists those of warn_once()
+
+ private:
+  struct Repeated {
+    std::string first;
+    size_t count = 0;
+  };
+  std::map<std::string, Repeated> repeated_;
 };
 
 // Reads .gltf or .glb (told apart by the magic bytes) with its external buffers and images, looked up beside
-// the file only. Throws Error(scene) for a missing or malformed file and for unknown required extensions.
+// the file only. Throws Error(scene) for a missing or malformed file and for required extensions that are not
+// read.
 GltfFile read_gltf(const std::filesystem::path& path);
 
 // Bytes of a buffer view, range-checked against its buffer. `what` names the user of the view in the error.
@@ -47,9 +59,10 @@ const T& element(const GltfFile& file, const std::vector<T>& list, int index, co
 
 // Components of an accessor as doubles, `components` an element (its type must have that many), normalised
 // integers mapped to [0,1] or [-1,1]; sparse values applied. Throws Error(scene) where it leaves its buffer
-// view or holds a NaN or infinity.
-std::vector<double> read_accessor(const GltfFile& file, int accessor, int components,
-                                  const std::string& what);
+// view or, unless any will do, holds a NaN or infinity.
+enum class Numbers { finite, any };
+std::vector<double> read_accessor(const GltfFile& file, int accessor, int components, const std::string& what,
+                                  Numbers numbers = Numbers::finite);
 
 // A scalar accessor of unsigned integers.
 std::vector<uint32_t> read_indices(const GltfFile& file, int accessor, const std::string& what);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -63,6 +64,25 @@ class GltfFixture : public ::testing::Test {
   int add_floats(const std::vector<float>& values, const char* type, size_t components) {
     return add(values, 5126, type, components);
   }
+  // A material "m" of the square whose base colour is the image of kPngBase64.
+  Json& textured() {
+    json_["images"] = {{{"uri", std::string("data:image/png;base64,") + kPngBase64}}};
+    json_["textures"] = {{{"source", 0}}};
+    json_["materials"] = {{{"name", "m"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    primitive()["material"] = 0;
+    return json_["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  }
+  // A skin of the mesh's node 0 with a joint a node, all weight on one joint a vertex unless `weights` says
+  // else.
+  void add_skin(const std::vector<int>& joints, const std::vector<uint8_t>& joint_of_vertex,
+                const std::vector<float>& weights, const std::vector<float>& inverse_bind = {}) {
+    json_["nodes"][0]["skin"] = 0;
+    json_["skins"] = {{{"joints", joints}}};
+    if (!inverse_bind.empty())
+      json_["skins"][0]["inverseBindMatrices"] = add_floats(inverse_bind, "MAT4", 16);
+    primitive()["attributes"]["JOINTS_0"] = add<uint8_t>(joint_of_vertex, 5121, "VEC4", 4);
+    primitive()["attributes"]["WEIGHTS_0"] = add_floats(weights, "VEC4", 4);
+  }
   Json& primitive() { return json_["meshes"][0]["primitives"][0]; }
 
   // A unit square in the plane z = 0, facing +z, with uvs upright in the image; indices as u16.
@@ -116,6 +136,21 @@ class GltfFixture : public ::testing::Test {
       EXPECT_NE(std::string(e.what()).find(path), std::string::npos) << e.what();
       return e.what();
     }
+  }
+
+  // Where a vertex stands in the world.
+  static glm::dvec3 world(const Scene& scene, size_t vertex) {
+    return glm::dvec3(scene.positions[vertex]) + scene.origin;
+  }
+  // The first warning that contains all of the parts, or all warnings in a line.
+  static ::testing::AssertionResult warned(const Scene& scene, const std::vector<std::string>& parts) {
+    std::string all;
+    for (const std::string& w : scene.warnings) {
+      const auto has = [&w](const std::string& part) { return w.find(part) != std::string::npos; };
+      if (std::all_of(parts.begin(), parts.end(), has)) return ::testing::AssertionSuccess() << w;
+      all += w + " | ";
+    }
+    return ::testing::AssertionFailure() << "warnings: " << all;
   }
 
   std::filesystem::path folder_;

@@ -6,72 +6,126 @@
 #include <thread>
 #include <utility>
 
+#include "scene/gltf_extensions.h"
+
 namespace vsglbench {
 namespace {
 
 constexpr float kDefaultCutoff = 0.5f;  // glTF 2.0, 3.9.4
+
+// A texture that a material refers to.
+struct TextureUse {
+  int texture;  // glTF's index, or -1
+  bool srgb;
+  bool needed;       // else a missing image is a warning
+  std::string what;  // "material wood: normalTexture"
+};
 
 // The images that materials use, each once as sRGB and once as linear data at most.
 class TextureList {
  public:
   TextureList(GltfFile* file, Scene* scene) : file_(*file), scene_(*scene) {}
 
-  // Index of the scene texture for glTF texture `index` (or -1), made on first use.
-  int use(int index, int tex_coord, const tinygltf::ExtensionMap& extensions, bool srgb,
-          const std::string& what) {
-    if (index == -1) return -1;
-    const auto& texture = element(file_, file_.model.textures, index, what);
-    const auto& image = element(file_, file_.model.images, texture.source, what + ": image");
-    warn_of_ignored(texture, tex_coord, extensions, what);
+  // Index of the scene texture, made on first use; -1 where there is none to read.
+  int use(const TextureUse& use) {
+    if (use.texture == -1) return -1;
+    const auto& texture = element(file_, file_.model.textures, use.texture, use.what);
+    const int source = source_of(texture, use.what);
+    if (source < 0) return -1;
+    const auto& image = element(file_, file_.model.images, source, use.what + ": image");
+    warn_of_ignored(texture, use.what);
     const auto [it, is_new] =
-        index_.try_emplace({texture.source, srgb}, static_cast<int>(scene_.textures.size()));
+        index_.try_emplace({source, use.srgb}, static_cast<int>(scene_.textures.size()));
     if (is_new) {
       Texture entry;
       entry.name = !image.name.empty()  ? image.name
                    : !image.uri.empty() ? image.uri
-                                        : fmt::format("image {}", texture.source);
-      entry.srgb = srgb;
+                                        : fmt::format("image {}", source);
+      entry.srgb = use.srgb;
       scene_.textures.push_back(std::move(entry));
-      sources_.push_back(encoded_bytes(image, texture.source, what));
+      sources_.push_back({encoded_bytes(image, source), use.what, image.uri, extension_of(texture), false});
     }
+    sources_[static_cast<size_t>(it->second)].needed |= use.needed;
     return it->second;
   }
 
-  // Decodes all images in use, on all cores. The first one that is no image is the error.
+  // Decodes all images in use, on all cores. The first one that is needed and no image is the error;
+  // materials do without the others, which are left out of the scene.
   void decode() {
     std::vector<uint8_t> good(sources_.size(), 0);
     std::atomic<size_t> next{0};
     const auto work = [&] {
       for (size_t i; (i = next++) < sources_.size();) {
-        good[i] = decode_image(sources_[i].data, sources_[i].size, &scene_.textures[i]);
+        good[i] = decode_image(sources_[i].bytes.data, sources_[i].bytes.size, &scene_.textures[i]);
       }
     };
     std::vector<std::thread> threads;
     const size_t count = std::min<size_t>(std::max(1u, std::thread::hardware_concurrency()), sources_.size());
     for (size_t i = 0; i < count; ++i) threads.emplace_back(work);
     for (std::thread& t : threads) t.join();
-    const auto bad = std::find(good.begin(), good.end(), 0);
-    if (bad != good.end()) {
-      throw file_.error("texture {}: is not an image that can be read (PNG or JPEG)",
-                        scene_.textures[static_cast<size_t>(bad - good.begin())].name);
+    std::vector<int> place(sources_.size(), -1);
+    std::vector<Texture> kept;
+    for (size_t i = 0; i < sources_.size(); ++i) {
+      if (!good[i] && !may_lack(i)) throw file_.error("{}", problem_of(i));
+      if (!good[i]) continue;
+      place[i] = static_cast<int>(kept.size());
+      kept.push_back(std::move(scene_.textures[i]));
+    }
+    scene_.textures = std::move(kept);
+    for (Material& m : scene_.materials) {
+      for (int* t : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture})
+        if (*t >= 0) *t = place[static_cast<size_t>(*t)];
     }
   }
 
  private:
-  ByteRange encoded_bytes(const tinygltf::Image& image, int index, const std::string& what) {
+  struct Source {
+    ByteRange bytes;
+    std::string what, uri;
+    std::string extension;  // the image stands in, if in no other place
+    bool needed;
+  };
+
+  static std::string extension_of(const tinygltf::Texture& texture) {
+    if (texture.source >= 0) return "";
+    const auto found = extension_image(texture);
+    return found ? found->extension : "";
+  }
+
+  // The index of a texture's image. One that stands in an extension alone may still be a PNG or JPEG.
+  int source_of(const tinygltf::Texture& texture, const std::string& what) {
+    if (texture.source >= 0) return texture.source;
+    if (const auto found = extension_image(texture)) return found->image;
+    file_.warn(fmt::format("{}: its texture names no image; it is left out", what));
+    return -1;
+  }
+
+  // Warns of an image that can't be read and that nothing needs, or that stands in an extension.
+  bool may_lack(size_t i) {
+    const Source& source = sources_[i];
+    if (source.needed && source.extension.empty()) return false;
+    const std::string why = source.needed ? remedy(source.extension) : "; nothing that is drawn needs it";
+    file_.warn(fmt::format("{}; the texture is left out{}", problem_of(i), why));
+    return true;
+  }
+
+  std::string problem_of(size_t i) const {
+    const Source& source = sources_[i];
+    if (source.bytes.size == 0 && !source.uri.empty())
+      return fmt::format("{}: its file '{}' is missing or empty", source.what, source.uri);
+    if (!source.extension.empty())
+      return fmt::format("{}: its image stands in {} alone, which is not read", source.what,
+                         source.extension);
+    return fmt::format("{}: texture {} is not an image that can be read (PNG or JPEG)", source.what,
+                       scene_.textures[i].name);
+  }
+
+  ByteRange encoded_bytes(const tinygltf::Image& image, int index) {
     if (image.bufferView >= 0) return view_bytes(file_, image.bufferView, fmt::format("image {}", index));
-    if (image.image.empty()) {
-      throw file_.error("{}: the file '{}' of image {} is missing or empty", what, image.uri, index);
-    }
     return {image.image.data(), image.image.size()};
   }
 
-  void warn_of_ignored(const tinygltf::Texture& texture, int tex_coord,
-                       const tinygltf::ExtensionMap& extensions, const std::string& what) {
-    if (tex_coord != 0) file_.warn(fmt::format("{}: TEXCOORD_{} is read as TEXCOORD_0", what, tex_coord));
-    if (extensions.count("KHR_texture_transform") > 0) {
-      file_.warn(fmt::format("{}: its KHR_texture_transform is ignored", what));
-    }
+  void warn_of_ignored(const tinygltf::Texture& texture, const std::string& what) {
     if (texture.sampler < 0) return;
     const auto& sampler = element(file_, file_.model.samplers, texture.sampler, what + ": sampler");
     if (sampler.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT || sampler.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT) {
@@ -85,7 +139,7 @@ class TextureList {
   GltfFile& file_;
   Scene& scene_;
   std::map<std::pair<int, bool>, int> index_;
-  std::vector<ByteRange> sources_;  // one a scene texture
+  std::vector<Source> sources_;  // one a scene texture
 };
 
 void read_alpha(GltfFile* file, const tinygltf::Material& from, Material* to) {
@@ -99,7 +153,29 @@ void read_alpha(GltfFile* file, const tinygltf::Material& from, Material* to) {
   }
 }
 
-Material read_material(GltfFile* file, const tinygltf::Material& from, size_t index, TextureList* textures) {
+// How the textures of a material lie on a mesh. All have the coordinates of the first: a vertex has one pair.
+class MaterialUvs {
+ public:
+  void add(GltfFile* file, const UvMapping& mapping, const std::string& material, const char* slot) {
+    if (first_.empty()) {
+      mapping_ = mapping;
+      first_ = slot;
+    } else if (!(mapping == mapping_)) {
+      file->warn(fmt::format(
+          "material {}: {} lies elsewhere than {} (another TEXCOORD or KHR_texture_transform); it is "
+          "read where that one lies",
+          material, slot, first_));
+    }
+  }
+  const UvMapping& mapping() const { return mapping_; }
+
+ private:
+  UvMapping mapping_;
+  std::string first_;
+};
+
+Material read_material(GltfFile* file, size_t index, bool used, TextureList* textures, UvMapping* uvs) {
+  const tinygltf::Material& from = file->model.materials[index];
   const auto& pbr = from.pbrMetallicRoughness;
   Material to;
   to.name = from.name.empty() ? fmt::format("material {}", index) : from.name;
@@ -109,13 +185,18 @@ Material read_material(GltfFile* file, const tinygltf::Material& from, size_t in
   to.normal_scale = static_cast<float>(from.normalTexture.scale);
   to.double_sided = from.doubleSided;
   read_alpha(file, from, &to);
+  MaterialUvs places;
   const auto use = [&](const auto& info, bool srgb, const char* slot) {
-    return textures->use(info.index, info.texCoord, info.extensions, srgb,
-                         fmt::format("material {}: {}", to.name, slot));
+    const std::string what = fmt::format("material {}: {}", to.name, slot);
+    const int texture = textures->use({info.index, srgb, used, what});
+    if (texture >= 0)
+      places.add(file, uv_mapping(*file, info.texCoord, info.extensions, what), to.name, slot);
+    return texture;
   };
   to.base_color_texture = use(pbr.baseColorTexture, true, "baseColorTexture");
   to.metallic_roughness_texture = use(pbr.metallicRoughnessTexture, false, "metallicRoughnessTexture");
   to.normal_texture = use(from.normalTexture, false, "normalTexture");
+  *uvs = places.mapping();
   const auto emits = [](double e) { return e > 0; };
   if (std::any_of(from.emissiveFactor.begin(), from.emissiveFactor.end(), emits)) {
     file->warn(fmt::format("material {}: its emission is ignored", to.name));
@@ -179,10 +260,11 @@ bool decode_image(const uint8_t* encoded, size_t size, Texture* texture) {
   return true;
 }
 
-void load_materials(GltfFile* file, Scene* scene) {
+std::vector<UvMapping> load_materials(GltfFile* file, const std::vector<bool>& used, Scene* scene) {
   TextureList textures(file, scene);
+  std::vector<UvMapping> uvs(file->model.materials.size() + 1);
   for (size_t i = 0; i < file->model.materials.size(); ++i) {
-    scene->materials.push_back(read_material(file, file->model.materials[i], i, &textures));
+    scene->materials.push_back(read_material(file, i, used[i], &textures, &uvs[i]));
   }
   // glTF 2.0, 3.9.1: what a primitive without a material gets.
   Material standard;
@@ -191,6 +273,7 @@ void load_materials(GltfFile* file, Scene* scene) {
   standard.metallic = 1;
   scene->materials.push_back(standard);
   textures.decode();
+  return uvs;
 }
 
 }  // namespace vsglbench

@@ -5,6 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "scene/gltf_animation.h"
+#include "scene/gltf_instancing.h"
+#include "scene/gltf_skin.h"
 
 namespace vsglbench {
 namespace {
@@ -105,8 +107,62 @@ class Walk {
     } else {
       self.world = parent.world * local_transform(file_, node, index);
     }
-    if (node.mesh >= 0) out_.push_back({node.mesh, self.world, self.node});
+    if (node.mesh >= 0) add_mesh(node, index, self);
     push(node.children, self);
+  }
+
+  void add_mesh(const tinygltf::Node& node, int index, const Parent& self) {
+    if (node.skin >= 0) {
+      out_.push_back(
+          {node.mesh, self.world, self.node, joint_matrices(file_, node.skin, joints_at_rest(node.skin))});
+    } else if (const auto repeats = instance_transforms(file_, node, index)) {
+      for (const glm::dmat4& place : *repeats) add_instance(node.mesh, place, self);
+    } else {
+      out_.push_back({node.mesh, self.world, self.node, {}});
+    }
+  }
+
+  // One of many: where its node moves, it is a node of its own that stands still in that one.
+  void add_instance(int mesh, const glm::dmat4& place, const Parent& self) {
+    if (!self.node) return out_.push_back({mesh, self.world * place, {}, {}});
+    MovingNode node;
+    node.name = animation_.nodes[*self.node].name;
+    node.parent = static_cast<int>(*self.node);
+    node.fixed = place;
+    animation_.nodes.push_back(std::move(node));
+    out_.push_back({mesh, self.world, static_cast<uint32_t>(animation_.nodes.size() - 1), {}});
+  }
+
+  // Where the joints of a skin stand: they may lie anywhere in the file.
+  std::vector<glm::dmat4> joints_at_rest(int skin) {
+    std::vector<glm::dmat4> out;
+    for (const int joint : element(file_, file_.model.skins, skin, "skin").joints) {
+      element(file_, file_.model.nodes, joint, "joint");
+      out.push_back(world_at_rest(joint));
+    }
+    if (out.empty()) throw file_.error("skin {}: has no joints", skin);
+    return out;
+  }
+
+  glm::dmat4 world_at_rest(int index) {
+    if (parents_.empty()) find_parents();
+    glm::dmat4 world(1);
+    size_t steps = 0;
+    for (int at = index; at >= 0; at = parents_[static_cast<size_t>(at)]) {
+      if (++steps > parents_.size()) throw file_.error("node {}: is in a cycle", index);
+      world = local_transform(file_, file_.model.nodes[static_cast<size_t>(at)], at) * world;
+    }
+    return world;
+  }
+
+  void find_parents() {
+    parents_.assign(file_.model.nodes.size(), -1);
+    for (size_t i = 0; i < parents_.size(); ++i) {
+      for (const int child : file_.model.nodes[i].children) {
+        element(file_, file_.model.nodes, child, "child node");
+        parents_[static_cast<size_t>(child)] = static_cast<int>(i);
+      }
+    }
   }
 
   // A node without tracks stands still in its parent. The uppermost moving node takes in what stands still
@@ -132,16 +188,15 @@ class Walk {
     return static_cast<uint32_t>(animation_.nodes.size() - 1);
   }
 
-  // A skin moves by its joints. Its mesh is drawn at rest, which is right only as long as nothing moves it.
+  // A skin moves by its joints alone. Its mesh is drawn at rest, which is right only as long as nothing moves
+  // them.
   void refuse_moving_skins() const {
     if (tracks_.empty()) return;
     for (size_t i = 0; i < visited_.size(); ++i) {
       const tinygltf::Node& node = file_.model.nodes[i];
       if (!visited_[i] || node.skin < 0 || node.mesh < 0) continue;
       const auto& skin = element(file_, file_.model.skins, node.skin, "skin");
-      std::vector<int> movers = skin.joints;
-      movers.push_back(static_cast<int>(i));
-      for (const int mover : movers) {
+      for (const int mover : skin.joints) {
         const std::string animation = mover_of(mover);
         if (animation.empty()) continue;
         throw file_.error("{} moves skin {} '{}' of {}; skins are not supported: leave the animation out",
@@ -162,6 +217,7 @@ class Walk {
   std::map<int, NodeTracks> tracks_;
   std::vector<bool> visited_;
   std::vector<std::string> moving_;  // one a node: the animation that moves it
+  std::vector<int> parents_;         // one a node, or -1; empty until a joint asks
   std::vector<std::pair<int, Parent>> open_;
   std::vector<GltfInstance> out_;
 };

@@ -12,17 +12,8 @@ namespace {
 
 class Gltf : public GltfFixture {
  protected:
-  glm::dvec3 world(const Scene& scene, size_t vertex) {
-    return glm::dvec3(scene.positions[vertex]) + scene.origin;
-  }
   void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
     EXPECT_LT(glm::length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
-  }
-  bool warned(const Scene& scene, const std::string& part) {
-    for (const std::string& w : scene.warnings) {
-      if (w.find(part) != std::string::npos) return true;
-    }
-    return false;
   }
 };
 
@@ -206,7 +197,7 @@ TEST_F(Gltf, ListsWhatItIgnores) {
   const Scene scene = load();
   EXPECT_FLOAT_EQ(scene.materials[0].alpha_cutoff, 0.5f);
   for (const char* part : {"blending", "emission", "KHR_materials_clearcoat", "points and lines"}) {
-    EXPECT_TRUE(warned(scene, part)) << part;
+    EXPECT_TRUE(warned(scene, {part})) << part;
   }
 }
 
@@ -236,7 +227,7 @@ TEST_F(Gltf, ZeroAreaTrianglesAreKeptAndCounted) {
   primitive()["indices"] = add<uint16_t>({0, 1, 2, 0, 2, 3, 1, 1, 2}, 5123, "SCALAR", 1);
   const Scene scene = load();
   EXPECT_EQ(scene.triangles.size(), 3u);
-  EXPECT_TRUE(warned(scene, "1 of 3 triangles have no area"));
+  EXPECT_TRUE(warned(scene, {"1 of 3 triangles have no area"}));
 }
 
 }  // namespace
