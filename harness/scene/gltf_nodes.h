@@ -15,6 +15,11 @@ struct GltfInstance {
   std::optional<uint32_t> node;  // of Animation::nodes: what moves
 };
 
+// Of a node in its parent. Error(scene) for a matrix or part that is none.
+glm::dmat4 local_transform(const GltfFile& file, const tinygltf::Node& node, int index);
+// Of the default scene (gltf.h says which that is).
+std::vector<int> root_nodes(const GltfFile& file);
+
 // All meshes of the default scene's hierarchy (gltf.h says which that is) in depth-first order. A node that
 // is reached twice (a cycle, or two parents) is an error. Where `animation` has frames, nodes that the file
 // animates and all below them are added to its nodes; a skin that they move is an error, since skins are not
