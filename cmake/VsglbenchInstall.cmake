@@ -21,7 +21,7 @@ function(vsglbench_install_programmes)
           DIRECTORIES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
   install(DIRECTORY harness methods DESTINATION ${VSGLBENCH_DATA}
           FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.vert" PATTERN "*.frag" PATTERN "types.h"
-          PATTERN "*.schema.json" PATTERN "claims.json" PATTERN "exhibits.json" PATTERN "*_test.comp" EXCLUDE PATTERN "*_naive.comp" EXCLUDE PATTERN "naive" EXCLUDE)
+          PATTERN "*.schema.json" PATTERN "render_cycles.py" PATTERN "exported/README.md" PATTERN "claims.json" PATTERN "exhibits.json" PATTERN "*_test.comp" EXCLUDE PATTERN "*_naive.comp" EXCLUDE PATTERN "naive" EXCLUDE)
   install(DIRECTORY methods/_template methods/_template_workgroup DESTINATION ${VSGLBENCH_DATA}/methods)
   install(DIRECTORY scenes configs DESTINATION ${VSGLBENCH_DATA})
   install(FILES README.md LICENSE DESTINATION ${VSGLBENCH_DATA})
