@@ -120,11 +120,10 @@ double promise(const TriangleTree& tree, const Candidate& c, uint32_t subject) {
   }
   std::ranges::sort(depths);
   const double radius = 0.5 * tree.scene().diagonal();
-  // A camera within a solid sees the backs of its faces, one within a room their fronts, or those of what
-  // stands there.
-  const double fronts = static_cast<double>(front) / static_cast<double>(n) - 0.1;
+  // A camera within a solid sees the backs of its faces, one within a room their fronts.
+  const double fronts = static_cast<double>(front) / static_cast<double>(n) - 0.5;
   const double near =
-      c.inside ? ramp(depths[n / 10], 0.08 * radius) * ramp(depths[n / 2], 0.35 * radius) * ramp(fronts, 0.3)
+      c.inside ? ramp(depths[n / 10], 0.08 * radius) * ramp(depths[n / 2], 0.35 * radius) * ramp(fronts, 0.2)
                : 1;
   return ramp(static_cast<double>(n) / cells, c.inside ? 0.9 : 0.4) * near *
          ramp(static_cast<double>(on_subject) / static_cast<double>(n), 0.15) *

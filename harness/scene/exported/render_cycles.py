@@ -53,6 +53,8 @@ def empty_scene():
 
 def read_geometry(facts):
     """The importer's meshes and textures; its camera and light are replaced."""
+    if "bool" not in np.__dict__:  # the importer of Blender 3.4 beside a numpy that has dropped this name
+        np.bool = bool
     bpy.ops.import_scene.gltf(filepath=os.path.join(HERE, "scene.gltf"))
     for item in list(bpy.data.objects):
         if item.type in ("CAMERA", "LIGHT"):
