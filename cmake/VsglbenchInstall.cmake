@@ -37,7 +37,7 @@ function(vsglbench_install_programmes)
           DIRECTORIES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
   install(DIRECTORY harness methods DESTINATION ${VSGLBENCH_DATA}
           FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.vert" PATTERN "*.frag" PATTERN "types.h"
-          PATTERN "*.schema.json" PATTERN "claims.json" PATTERN "exhibits.json" PATTERN "*_test.comp" EXCLUDE PATTERN "*_naive.comp" EXCLUDE PATTERN "naive" EXCLUDE)
+          PATTERN "*.schema.json" PATTERN "render_cycles.py" PATTERN "exported/README.md" PATTERN "claims.json" PATTERN "exhibits.json" PATTERN "*_test.comp" EXCLUDE PATTERN "*_naive.comp" EXCLUDE PATTERN "naive" EXCLUDE)
   install(DIRECTORY harness DESTINATION ${VSGLBENCH_DATA} COMPONENT tests EXCLUDE_FROM_ALL
           FILES_MATCHING PATTERN "*_test.comp" PATTERN "*_naive.comp" PATTERN "naive/*" PATTERN "*.csv")
   install(PROGRAMS ci/gpu-check DESTINATION .)

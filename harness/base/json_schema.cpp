@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/json_number.h"
+#include "base/json_violations.h"
 #include "base/nearest.h"
 #include "base/pattern.h"
 #include "base/printable.h"
@@ -226,6 +227,14 @@ void check_schema(const JsonDocument& doc, const Json& schema) {
   SchemaChecker(schema, [&](const std::string& at, const std::string& message) {
     throw doc.error(at, message);
   }).check(doc.root(), schema, "");
+}
+
+std::vector<SchemaViolation> all_violations(const JsonDocument& doc, const Json& schema) {
+  std::vector<SchemaViolation> out;
+  SchemaChecker(schema, [&](const std::string& at, const std::string& message) {
+    out.push_back({at, message});
+  }).check(doc.root(), schema, "");
+  return out;
 }
 
 std::vector<std::string> schema_violations(const Json& value, const Json& schema) {

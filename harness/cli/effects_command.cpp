@@ -132,7 +132,7 @@ void add_effects_command(CLI::App& app) {
       "--force-effects` and\n`--skip-effects` turn effects on and off.\n"
       "Examples: vsglbench effects cornell --price; vsglbench effects reports/out/quick");
   command
-      ->add_option("scene", options->scene,
+      ->add_option("scene,--scene", options->scene,
                    "scene, with :VIEW, a name or a path; or a report: the ledgers that a run wrote into it")
       ->required();
   command->add_flag("--price", options->price, "render frames with and without each effect, and time them");

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "cli/command.h"
+#include "cli/scene_arguments.h"
 #include "run/config.h"
 #include "run/lights_run.h"
 
@@ -47,7 +48,6 @@ int print(const std::vector<LightsResult>& results) {
 
 void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result) {
   auto options = std::make_shared<LightsOptions>();
-  auto config = std::make_shared<std::string>();
   auto format = std::make_shared<std::string>("json");
   CLI::App* command =
       app.add_subcommand("lights", "draw the lights of an experiment's cases, and write them as JSON or CSV");
@@ -99,7 +99,7 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
       "plugin or\n"
       "output, or all skipped, 3 no usable device.\n"
       "Example: vsglbench lights mfis16-fig1 --case 'cornell/fis/*' --case 'cornell/mfis/*'");
-  command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
+  const ExperimentOption experiment(command);
   command->add_option("--case", options->cases,
                       "only the cases whose id matches this glob; may come again (default: all)");
   command->add_option("--seed", options->seed, "of the lights' lattice")->capture_default_str();
@@ -120,7 +120,9 @@ void add_lights_command(CLI::App& app, const std::vector<std::string>& argv, Com
   command->callback([=] {
     if (options->seeds - 1 > std::numeric_limits<uint32_t>::max() - options->seed)
       throw fail(ErrorKind::usage, "--seed {} has no {} seeds from there on", options->seed, options->seeds);
-    options->config = config_path(*config);
+    const Experiment given = experiment.get();
+    options->config = given.config;
+    options->scenes = given.scenes;
     options->csv = *format == "csv";
     options->argv = argv;
     result->exit_code = print(run_lights(*options));

@@ -11,12 +11,13 @@
 #include <new>
 #include <system_error>
 
-#include "base/error.h"
+#include "base/error_list.h"
 #include "base/json.h"
 #include "base/log.h"
 #include "base/nearest.h"
 #include "base/printable.h"
 #include "cli/command.h"
+#include "cli/scene_commands.h"
 #include "image/theme.h"
 #include "method/plugin.h"
 #include "method/registry.h"
@@ -113,6 +114,8 @@ int main(int argc, char** argv) {
   add_reproduce_command(app, arguments, &result);
   add_list_command(app, &result);
   add_reference_command(app, &result);
+  add_new_scene_command(app);
+  add_view_command(app);
   add_effects_command(app);
   add_doctor_command(app, &result);
   add_check_method_command(app, &result);
@@ -150,6 +153,9 @@ int main(int argc, char** argv) {
     const int code = app.exit(e);  // prints help or version
     if (std::cout.flush()) return code;
     return report(fmt::format("standard output: {}", std::strerror(errno)), exit_code(ErrorKind::output));
+  } catch (const ErrorList& e) {
+    for (const std::string& line : e.lines()) report(line, e.exit_code());
+    return e.exit_code();
   } catch (const Error& e) {
     return report(e.what(), e.exit_code());
   } catch (const std::bad_alloc&) {

@@ -95,7 +95,8 @@ void add_reference_command(CLI::App& app, CommandResult*) {
   CLI::App* command =
       app.add_subcommand("reference", "compute a scene's ground truth, or fetch it from the cache");
   command->footer("Example: vsglbench reference cornell --width 480 --height 272 --samples 512 --out .");
-  command->add_option("scene", options->scene, "NAME or NAME:VIEW, or a scene.json")->required();
+  command->add_option("scene,--scene", options->scene, "NAME or NAME:VIEW, a scene.json or a glTF file")
+      ->required();
   command->add_option("--out", options->out, "folder of the EXR and PNG")->capture_default_str();
   command->add_option("--assets", options->assets, "folder of downloaded scenes (default $VSGLBENCH_ASSETS)");
   command->add_option("--width", options->parameters.width, "pixels")

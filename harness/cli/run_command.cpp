@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/percent.h"
 #include "cli/command.h"
+#include "cli/scene_arguments.h"
 #include "cli/terminal.h"
 #include "report/ledger.h"
 #include "report/noise.h"
@@ -78,15 +79,17 @@ std::string problem_of_effects(const std::string& effects) {
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv, CommandResult* result) {
   auto options = std::make_shared<RunOptions>();
-  auto config = std::make_shared<std::string>(), noise = std::make_shared<std::string>();
+  auto noise = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("run", "measure the cases of an experiment and write report.json");
   command->footer(
       "What a case shows is on the disk at once; an interrupted run goes on when the same command is given "
       "again. Cases run in\nprocesses of their own: one that crashes, hangs or loses the device fails, and "
       "the "
       "rest goes on. A complete report in\nthe folder is kept as report.previous.json; images are replaced.\n"
-      "Example: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'");
-  command->add_option("config", *config, "experiment: a file, or the name of one in configs/")->required();
+      "Examples: vsglbench run configs/sponza.json --assets ~/scenes --only '*/mfis/*'; vsglbench run "
+      "--scene "
+      "model.glb --scale small");
+  const ExperimentOption experiment(command);
   command->add_option("--out", options->out, "folder of the report (default reports/out/NAME)")
       ->check([](const std::string& out) { return std::string(out.empty() ? "needs a folder" : ""); });
   command
@@ -140,7 +143,9 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv, Comman
   command->add_flag("--validate", options->validation,
                     "with Vulkan's validation layers (slow); a message fails the run");
   command->callback([=] {
-    options->config = config_path(*config);
+    const Experiment given = experiment.get();
+    options->config = given.config;
+    options->scenes = given.scenes;
     options->argv = argv;
     run(*options, *noise, result);
   });

@@ -1,6 +1,7 @@
 #include "run/config.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "base/error.h"
@@ -13,6 +14,8 @@
 #include "run/overrides.h"
 #include "run/pdf_source.h"
 #include "run/preset.h"
+#include "run/scene_choice.h"
+#include "scene/model_scene.h"
 #include "scene/scene_file.h"
 
 namespace fs = std::filesystem;
@@ -46,17 +49,17 @@ std::string identity_of(const std::string& scene, const fs::path& file, std::str
 
 // A scene that is misspelt is found now, not after an hour of measuring others. Whether its geometry is there
 // and sound shows when it is loaded. Returns what two names of the same scene share.
-std::string check_scene_name(const JsonDocument& doc, const std::string& at, const std::string& scene) {
+std::string check_scene_name(const std::string& scene) {
   const SceneName name = parse_scene_name(scene);
   std::error_code ec;
   fs::path file = data_root() / "scenes" / name.scene / "scene.json";
   if (is_path(name.scene)) {
     file = fs::is_directory(name.scene, ec) ? fs::path(name.scene) / "scene.json" : fs::path(name.scene);
     if (!fs::exists(file, ec))
-      throw doc.error(at, fmt::format("no scene '{}': {} does not exist", name.scene, file.string()));
+      throw fail(ErrorKind::config, "no scene '{}': {} does not exist", name.scene, file.string());
   } else if (!fs::exists(file, ec) || name.scene.empty()) {
-    throw doc.error(at, fmt::format("no scene '{}'{}", name.scene,
-                                    suggestion(name.scene, names_in(data_root() / "scenes"))));
+    throw fail(ErrorKind::config, "no scene '{}'{}", name.scene,
+               suggestion(name.scene, names_in(data_root() / "scenes")));
   }
   return identity_of(scene, file, name.view.value_or(""));
 }
@@ -108,15 +111,37 @@ JsonDocument at_scale(const JsonDocument& file, const std::string& scale) {
   return doc;
 }
 
-void check_scenes(const JsonDocument& doc, const std::vector<std::string>& scenes) {
+// `said(i, what)`: the error that says what is wrong with scene i.
+void check_scenes(const std::vector<std::string>& scenes,
+                  const std::function<Error(size_t, const std::string&)>& said) {
   std::map<std::string, std::string> seen;  // name, by what it stands for
   for (size_t i = 0; i < scenes.size(); ++i) {
-    const std::string at = fmt::format("/scenes/{}", i);
-    const auto [first, fresh] = seen.emplace(check_scene_name(doc, at, scenes[i]), scenes[i]);
+    std::string identity;
+    try {
+      identity = check_scene_name(scenes[i]);
+    } catch (const Error& e) {
+      throw said(i, e.what());
+    }
+    const auto [first, fresh] = seen.emplace(identity, scenes[i]);
     if (fresh) continue;
     const std::string as = first->second == scenes[i] ? "" : fmt::format(", first as {}", first->second);
-    throw doc.error(at, fmt::format("the scene {} comes twice{}", scenes[i], as));
+    throw said(i, fmt::format("the scene {} comes twice{}", scenes[i], as));
   }
+}
+
+// Puts `choice` into a config.
+void apply(const SceneChoice& choice, Json* root) {
+  if (choice.scenes.empty()) return;
+  check_scenes(choice.scenes, [&](size_t i, const std::string& what) {
+    return fail(ErrorKind::usage, "--scene {}: {}", i + 1, what);
+  });
+  (*root)["scenes"] = choice.scenes;
+  if (!choice.names_it) return;
+  const std::string scene = parse_scene_name(choice.scenes.front()).scene;
+  const fs::path path = scene.ends_with('/') ? fs::path(scene).parent_path() : fs::path(scene);
+  (*root)["name"] = model_name(path.filename() == "scene.json" ? fs::absolute(path).parent_path() : path);
+  (*root)["description"] =
+      fmt::format("{}, of {}", fmt::join(choice.scenes, ", "), root->value("description", ""));
 }
 
 // From the config, else from its preset, else the default.
@@ -265,6 +290,11 @@ const Json& config_schema() {
 }
 
 Config load_config(const fs::path& path, const Overrides& overrides, const std::string& scale) {
+  return load_config(path, overrides, scale, SceneChoice());
+}
+
+Config load_config(const fs::path& path, const Overrides& overrides, const std::string& scale,
+                   const SceneChoice& choice) {
   const JsonDocument file = JsonDocument::load(path, ErrorKind::config);
   if (file.root().is_object() && file.root().contains("figure")) {
     throw file.error("/figure", fmt::format("describes a figure; draw it with `vsglbench figure {}`",
@@ -275,6 +305,7 @@ Config load_config(const fs::path& path, const Overrides& overrides, const std::
   const JsonDocument doc = scaled.patched(with_integers(scaled.root()));
   Json root = doc.root();
   apply(overrides, &root);
+  apply(choice, &root);
   Config config;
   config.name = root.at("name");
   config.description = root.value("description", "");
@@ -283,7 +314,11 @@ Config load_config(const fs::path& path, const Overrides& overrides, const std::
   config.seeds = root.value("seeds", config.seeds);
   config.price_effects = root.value("price_effects", config.price_effects);
   config.time_limit_s = root.value("time_limit_s", config.time_limit_s);
-  check_scenes(doc, config.scenes);
+  if (choice.scenes.empty()) {
+    check_scenes(config.scenes, [&](size_t i, const std::string& what) {
+      return doc.error(fmt::format("/scenes/{}", i), what);
+    });
+  }
   read_timing(doc, &config);
   read_reference(doc, &config);
   read_motion(doc, &config);

@@ -298,7 +298,7 @@ LightSet make_lights(Frame& frame, uint32_t seed, const KeptPdfs* shared, uint32
 }
 
 std::vector<LightsResult> run_lights(const LightsOptions& options) {
-  const Config config = load_config(options.config, Json::object(), options.scale);
+  const Config config = load_config(options.config, Json::object(), options.scale, options.scenes);
   const std::vector<Case> cases = select_cases(config.cases, options.cases, "--case");
   const Jobs jobs{cases, options.seed, options.seeds};
   const fs::path out =

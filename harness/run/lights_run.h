@@ -10,7 +10,7 @@
 #include "lights/coverage.h"
 #include "lights/light_list.h"
 #include "report/report.h"
-#include "run/config.h"
+#include "run/scene_choice.h"
 #include "run/scene_pdfs.h"
 
 namespace vsglbench {
@@ -18,6 +18,7 @@ namespace vsglbench {
 struct LightsOptions {
   std::filesystem::path config;
   std::string scale;               // of the config's `scales`; empty: none
+  SceneChoice scenes;              // in place of the config's
   std::filesystem::path out;       // empty: reports/out/<name of the config>/lights
   std::filesystem::path assets;    // empty: $VSGLBENCH_ASSETS
   std::vector<std::string> cases;  // globs over their ids; empty: all

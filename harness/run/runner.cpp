@@ -25,7 +25,7 @@ namespace vsglbench {
 namespace {
 
 Config read_config(const RunOptions& options) {
-  Config config = load_config(options.config, parse_overrides(options.set), options.scale);
+  Config config = load_config(options.config, parse_overrides(options.set), options.scale, options.scenes);
   for (Case& c : config.cases) c.frame.check_passes = options.check_passes;
   if (options.price_effects > 0) {
     if (config.measure == Measure::generation)

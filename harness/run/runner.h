@@ -7,6 +7,7 @@
 
 #include "report/report.h"
 #include "run/activity.h"
+#include "run/scene_choice.h"
 
 namespace vsglbench {
 
@@ -17,6 +18,7 @@ struct RunOptions {
   std::vector<std::string> only;  // globs over case ids; empty: all
   std::vector<std::string> set;   // "KEY=VALUE", in place of what the config says
   std::string scale;              // of the config's `scales`; empty: none
+  SceneChoice scenes;             // in place of the config's
   std::string device;             // as in select_device()
   bool force = false;             // measure again what an interrupted run had finished
   // A complete report of the same experiment, program and device stands; what failed there, was skipped, or

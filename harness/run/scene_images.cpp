@@ -13,6 +13,7 @@
 #include "image/exr.h"
 #include "image/labelled.h"
 #include "image/png.h"
+#include "reference/direct_light.h"
 #include "report/environment.h"
 
 namespace fs = std::filesystem;
@@ -231,7 +232,7 @@ void SceneImages::start(CaseRun& run) {
         });
       },
       failed);
-  if (!direct_ && run.frame()) write_direct(*run.frame());
+  if (!direct_ && tracer_ && run.frame()) write_direct(*run.frame());
 }
 
 void SceneImages::finish(CaseRun& run) {
@@ -241,16 +242,16 @@ void SceneImages::finish(CaseRun& run) {
   guarded([&] { run.add_images(writing.mapped().get()); }, failed);
 }
 
-void SceneImages::write_direct(Frame& frame) {
+void SceneImages::write_direct(const Frame& frame) {
   direct_ = true;
   const auto warn = [&](ErrorKind, const std::string& message) {
     log_warning("{}: {}", scene_->name, message);
   };
   guarded(
       [&] {
-        write_pair(out_, scene_folder(scene_->name) + "/direct", frame.render_direct(),
-                   frame.results().surface_mask(), static_cast<float>(scene_->exposure),
-                   scene_labels(*scene_, "direct radiance"));
+        const DirectLight direct = direct_light(*tracer_, frame.camera().width, frame.camera().height);
+        write_pair(out_, scene_folder(scene_->name) + "/direct", direct.image, direct.mask,
+                   auto_exposure(direct.image, direct.mask), scene_labels(*scene_, "direct radiance"));
       },
       warn);
 }

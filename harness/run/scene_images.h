@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/tracer.h"
 #include "run/case_run.h"
 
 namespace vsglbench {
@@ -48,9 +49,12 @@ class SceneImages {
   // contact sheet in `scene`.
   SceneImages(std::filesystem::path out, bool exposed, SceneReport* scene);
 
-  // Its image, error map and reference, the first time the scene's direct light, too; for a case that was
-  // looked at, whose frame and images stand until finish(). Images and error maps are written by another
-  // thread. A case without an image is left alone.
+  // By which direct light is traced; without one there is no picture of it.
+  void trace_by(const Tracer* tracer) { tracer_ = tracer; }
+
+  // Its image, error map and reference, the first time the scene's direct light, too, at an exposure of its
+  // own; for a case that was looked at, whose frame and images stand until finish(). Images and error maps
+  // are written by another thread. A case without an image is left alone.
   void start(CaseRun& run);
   // Waits for them and tells the case their paths, relative to `out`; where they can't be written it
   // fails in the end, with kind "output", and keeps its numbers.
@@ -62,9 +66,10 @@ class SceneImages {
                    const ReferenceInfo& info);
 
  private:
-  void write_direct(Frame& frame);
+  void write_direct(const Frame& frame);
   std::filesystem::path out_;
   SceneReport* scene_;
+  const Tracer* tracer_ = nullptr;
   bool exposed_ = false;  // the scene's exposure is chosen
   bool direct_ = false;   // written
   std::map<const CaseRun*, std::future<std::map<std::string, std::string>>> open_;

@@ -80,7 +80,9 @@ SceneRun::SceneRun(Device& device, KernelLibrary& kernels, Scene& scene, const C
       report_(report),
       images_(options.out, has_images(earlier), &report_),
       wants_twin_(options.aa) {
-  if (config.measure == Measure::frame) truth_.emplace(scene, config, wall);
+  if (config.measure != Measure::frame) return;
+  truth_.emplace(scene, config, wall);
+  images_.trace_by(&truth_->tracer);
 }
 
 // --- opening ---

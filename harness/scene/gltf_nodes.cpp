@@ -9,7 +9,6 @@
 #include "scene/gltf_skin.h"
 
 namespace vsglbench {
-namespace {
 
 glm::dmat4 local_transform(const GltfFile& file, const tinygltf::Node& node, int index) {
   const auto numbers = [&](const std::vector<double>& v, size_t count, const char* key) {
@@ -57,6 +56,8 @@ std::vector<int> root_nodes(const GltfFile& file) {
   }
   return roots;
 }
+
+namespace {
 
 // Depth first through the hierarchy.
 class Walk {

@@ -16,6 +16,11 @@ struct GltfInstance {
   std::vector<glm::dmat4> joints;  // of a skinned mesh: from its vertices to world space, by joint, at rest
 };
 
+// Of a node in its parent. Error(scene) for a matrix or part that is none.
+glm::dmat4 local_transform(const GltfFile& file, const tinygltf::Node& node, int index);
+// Of the default scene (gltf.h says which that is).
+std::vector<int> root_nodes(const GltfFile& file);
+
 // All meshes of the default scene's hierarchy (gltf.h says which that is) in depth-first order. A node that
 // is reached twice (a cycle, or two parents) is an error; what EXT_mesh_gpu_instancing repeats is listed as
 // often. Where `animation` has frames, nodes that the file animates and all below them are added to its

@@ -3,6 +3,8 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 
 #include "base/file.h"
 #include "base/json.h"
@@ -10,7 +12,9 @@
 #include "scene/builders.h"
 #include "scene/check.h"
 #include "scene/gltf.h"
+#include "scene/model_scene.h"
 #include "scene/scene_objects.h"
+#include "scene/scene_problems.h"
 #include "scene/scene_view.h"
 
 namespace fs = std::filesystem;
@@ -53,30 +57,31 @@ SceneFile locate(const std::string& name_or_path, const SceneOptions& options) {
   return {file, view};
 }
 
-JsonDocument load_document(const fs::path& file) {
+const Json& scene_schema() {
   static const Json schema =
       JsonDocument::load(data_root() / "harness" / "scene" / "scene.schema.json", ErrorKind::scene).root();
-  JsonDocument document = JsonDocument::load(file, ErrorKind::scene);
-  check_schema(document, schema);
-  const Json& root = document.root();
-  const Json& geometry = root.at("geometry");
-  if (geometry.contains("file") == geometry.contains("builder")) {
-    throw document.error("/geometry", "must have either 'file' or 'builder'");
-  }
-  if (geometry.contains("file") && geometry.contains("parameters")) {
-    throw document.error("/geometry/parameters", "is for a builder, not for a file");
-  }
-  if (geometry.contains("builder")) {
+  return schema;
+}
+
+// A file or a builder, and only what is for it.
+void check_geometry(SceneProblems* problems) {
+  const JsonDocument& document = problems->document();
+  problems->check("/geometry", [&](const std::string& at) {
+    const Json& geometry = document.root().at("geometry");
+    if (geometry.contains("file") == geometry.contains("builder"))
+      throw document.error(at, "must have either 'file' or 'builder'");
+    if (geometry.contains("file") && geometry.contains("parameters"))
+      throw document.error(at + "/parameters", "is for a builder, not for a file");
     for (const char* key : {"unit", "view_unit"}) {
-      if (root.contains(key))
+      if (geometry.contains("builder") && document.root().contains(key))
         throw document.error(std::string("/") + key, "is for a file; builders use metres");
     }
-  }
-  return document;
+  });
 }
 
 std::vector<std::string> view_names(const Json& root) {
   std::vector<std::string> names;
+  if (!root.value("views", Json()).is_object()) return names;
   for (const auto& [name, unused] : root.at("views").items()) names.push_back(name);
   return names;
 }
@@ -131,30 +136,108 @@ void load_geometry(const JsonDocument& document, const SceneOptions& options, do
 }
 
 // Each override sets factors of the materials whose name it matches; textures still multiply them.
-void apply_overrides(const JsonDocument& document, Scene* scene) {
-  const Json list = document.root().value("materials", Json::array());
-  for (size_t i = 0; i < list.size(); ++i) {
-    const Json& o = list[i];
-    const std::string pattern = o.at("match").get<std::string>();
-    std::vector<std::string> names;
-    bool matched = false;
-    for (Material& m : scene->materials) {
-      names.push_back(m.name);
-      if (m.name != pattern && fnmatch(pattern.c_str(), m.name.c_str(), 0) != 0) continue;
-      matched = true;
-      if (o.contains("base_color")) {
-        for (int k = 0; k < 3; ++k) m.base_color[k] = o["base_color"][k].get<float>();
-      }
-      m.metallic = o.value("metallic", m.metallic);
-      m.roughness = o.value("roughness", m.roughness);
-      m.phong_exponent = o.value("phong_exponent", m.phong_exponent);
-      m.specular = o.value("specular", m.specular);
+void apply_override(const JsonDocument& document, const std::string& at, Scene* scene) {
+  const Json& o = document.root().at(Json::json_pointer(at));
+  const std::string pattern = o.at("match").get<std::string>();
+  std::vector<std::string> names;
+  bool matched = false;
+  for (Material& m : scene->materials) {
+    names.push_back(m.name);
+    if (m.name != pattern && fnmatch(pattern.c_str(), m.name.c_str(), 0) != 0) continue;
+    matched = true;
+    if (o.contains("base_color")) {
+      for (int k = 0; k < 3; ++k) m.base_color[k] = o["base_color"][k].get<float>();
     }
-    if (!matched) {
-      throw document.error(fmt::format("/materials/{}/match", i),
-                           fmt::format("'{}' matches no material{}", pattern, suggestion(pattern, names)));
-    }
+    m.metallic = o.value("metallic", m.metallic);
+    m.roughness = o.value("roughness", m.roughness);
+    m.phong_exponent = o.value("phong_exponent", m.phong_exponent);
+    m.specular = o.value("specular", m.specular);
   }
+  if (!matched) {
+    throw document.error(at + "/match",
+                         fmt::format("'{}' matches no material{}", pattern, suggestion(pattern, names)));
+  }
+}
+
+void apply_overrides(SceneProblems* problems, Scene* scene) {
+  const JsonDocument& document = problems->document();
+  const Json list = document.root().value("materials", Json());
+  for (size_t i = 0; list.is_array() && i < list.size(); ++i)
+    problems->check(fmt::format("/materials/{}", i),
+                    [&](const std::string& at) { apply_override(document, at, scene); });
+}
+
+// What `about` says of the file was true once.
+void check_about(const Json& root, Scene* scene) {
+  const Json about = root.value("about", Json::object());
+  const size_t now = scene->triangles.size(), then = about.value("triangles", now);
+  if (now != then)
+    scene->warnings.push_back(
+        fmt::format("its file has {} triangles, and had {} when 'about' was written", now, then));
+}
+
+double number(const SceneProblems& problems, const std::string& key, double standard) {
+  return problems.sound("/" + key) ? problems.document().root().at(key).get<double>() : standard;
+}
+
+// All of a document but the geometry, which `load` brings into a scene whose offset and animation are set.
+Scene scene_of(const JsonDocument& document, const std::string& wanted_view, const SceneOptions& options,
+               const std::function<void(double unit, Scene*)>& load) {
+  SceneProblems problems(document, scene_schema());
+  const Json& root = document.root();
+  if (!root.is_object()) problems.raise();
+  check_geometry(&problems);
+  const double unit = number(problems, "unit", 1), view_unit = number(problems, "view_unit", unit);
+  std::string view;
+  problems.check("/default_view", [&](const std::string&) { choose_view(document, ""); });
+  if (problems.sound("/default_view"))
+    problems.check("/views", [&](const std::string&) { view = choose_view(document, wanted_view); });
+  for (const std::string& name : view_names(root))
+    check_view("/views/" + pointer_token(name), view_unit, &problems);
+  check_objects(&problems);
+
+  Scene scene;
+  if (problems.sound("/offset")) {
+    for (int k = 0; k < 3; ++k) scene.offset[k] = unit * root["offset"][k].get<double>();
+  }
+  if (problems.sound("/animation")) {
+    scene.animation.frames = options.frames > 0 ? options.frames : root["animation"].value("frames", 16u);
+    scene.animation.rate = root["animation"].value("rate", scene.animation.rate);
+  }
+  std::optional<Error> absent;  // is no fault of the file
+  problems.check("/geometry", [&](const std::string&) {
+    try {
+      load(unit, &scene);
+      apply_overrides(&problems, &scene);
+    } catch (const Error& e) {
+      if (e.kind() != ErrorKind::asset_missing) throw;
+      absent = e;
+    }
+  });
+  problems.raise();
+  if (absent) throw Error(*absent);
+  scene.name = root.at("name").get<std::string>();
+  if (view != root.at("default_view").get<std::string>()) scene.name += ":" + view;
+  check_about(root, &scene);
+  add_objects(document, view_unit, &scene);
+  apply_view(document, "/views/" + pointer_token(view), view_unit, &scene);
+  check_scene(scene);
+  scene.hash = scene_hash(scene);
+  return scene;
+}
+
+// A glTF file by itself, through the scene.json that it amounts to: written by new-scene, that is the same
+// scene.
+Scene load_model(const SceneFile& wanted, const SceneOptions& options) {
+  Scene geometry;
+  load_gltf(wanted.path, 1, &geometry);
+  const ModelScene made = model_scene(wanted.path, geometry, wanted.path.filename().string());
+  const JsonDocument document =
+      JsonDocument::parse(made.json.dump(2), wanted.path.string(), ErrorKind::scene);
+  const auto take = [&](double, Scene* scene) { *scene = std::move(geometry); };
+  Scene scene = scene_of(document, wanted.view, options, take);
+  scene.warnings.insert(scene.warnings.end(), made.notes.begin(), made.notes.end());
+  return scene;
 }
 
 }  // namespace
@@ -167,41 +250,25 @@ SceneName parse_scene_name(const std::string& text) {
 }
 
 bool is_path(const std::string& name) {
-  return name.find('/') != std::string::npos || name.ends_with(".json");
+  return name.find('/') != std::string::npos || name.ends_with(".json") || is_model(name);
 }
 
 Scene load_scene(const std::string& name_or_path, const SceneOptions& options) {
   const SceneFile wanted = locate(name_or_path, options);
-  const JsonDocument document = load_document(wanted.path);
-  const Json& root = document.root();
-  const std::string view = choose_view(document, wanted.view);
-  choose_view(document, "");  // the default view must exist too
-  Scene scene;
-  scene.name = root.at("name").get<std::string>();
-  if (view != root.at("default_view").get<std::string>()) scene.name += ":" + view;
-
-  const double unit = root.value("unit", 1.0);
-  if (root.contains("offset")) {
-    for (int k = 0; k < 3; ++k) scene.offset[k] = unit * root["offset"][k].get<double>();
-  }
-  if (root.contains("animation")) {
-    scene.animation.frames = options.frames > 0 ? options.frames : root["animation"].value("frames", 16u);
-    scene.animation.rate = root["animation"].value("rate", scene.animation.rate);
-  }
-  const double view_unit = root.value("view_unit", unit);
-  load_geometry(document, options, unit, &scene);
-  apply_overrides(document, &scene);
-  add_objects(document, view_unit, &scene);
-  apply_view(document, "/views/" + pointer_token(view), view_unit, &scene);
-  check_scene(scene);
-  scene.hash = scene_hash(scene);
-  return scene;
+  if (is_model(wanted.path)) return load_model(wanted, options);
+  const JsonDocument document = JsonDocument::load(wanted.path, ErrorKind::scene);
+  return scene_of(document, wanted.view, options,
+                  [&](double unit, Scene* scene) { load_geometry(document, options, unit, scene); });
 }
 
 std::vector<SceneInfo> list_scenes(const SceneOptions& options) {
   std::vector<SceneInfo> out;
   for (const std::string& folder : scene_folders(options.scenes_dir)) {
-    const JsonDocument document = load_document(options.scenes_dir / folder / "scene.json");
+    const JsonDocument document =
+        JsonDocument::load(options.scenes_dir / folder / "scene.json", ErrorKind::scene);
+    SceneProblems problems(document, scene_schema());
+    check_geometry(&problems);
+    problems.raise();
     const Json& root = document.root();
     SceneInfo info;
     info.name = folder;

@@ -24,13 +24,13 @@ struct SceneName {
 };
 SceneName parse_scene_name(const std::string& text);
 
-// Whether a name is the path of a file or folder: it has a '/' or ends in .json.
+// Whether a name is the path of a file or folder: it has a '/' or ends in .json, .gltf or .glb.
 bool is_path(const std::string& name);
 
-// `name_or_path`: "sponza", or a scene.json or its folder (anything with a '/' or ending in .json); either
-// may end in ":VIEW". Without one the scene's default view. The scene comes checked (check_scene), hashed,
-// and in frame 0; set_frame() poses it in others. Throws Error(asset_missing) for geometry that isn't on this
-// machine, which says which file and where to get it; Error(scene) "FILE:LINE: ...".
+// `name_or_path`: "sponza"; a scene.json or its folder; or a glTF file, for the scene.json that model_scene()
+// makes of it; each may end in ":VIEW". Without one the default view. The scene comes checked, hashed, and in
+// frame 0; set_frame() poses it in others. Throws Error(asset_missing) for geometry that isn't here, with
+// where to get it; Error(scene) "FILE:LINE: ...", ErrorList where a scene.json has several faults.
 Scene load_scene(const std::string& name_or_path, const SceneOptions& options);
 
 // What a list of scenes shows, read without loading geometry.

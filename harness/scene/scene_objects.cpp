@@ -69,7 +69,35 @@ Mesh read_torus(const JsonDocument& document, const std::string& at) {
   return mesh;
 }
 
+Mesh read_quad(const JsonDocument& document, const std::string& at) {
+  const Json& json = value(document, at);
+  const glm::dvec3 u = vector(json.at("u")), v = vector(json.at("v"));
+  const double tile = std::max(glm::length(u), glm::length(v));
+  if (!(glm::length(glm::cross(u, v)) > 1e-9 * tile * tile))
+    throw document.error(at, "has no area: 'u' and 'v' are in line, or have no length");
+  Mesh mesh;
+  add_grid(&mesh, vector(json.at("corner")), u, v, 1, 1, tile);
+  return mesh;
+}
+
+Mesh read_shape(const JsonDocument& document, const std::string& at) {
+  const Json& json = value(document, at);
+  if (json.contains("torus") == json.contains("quad"))
+    throw document.error(at, "must have one shape, either 'torus' or 'quad'");
+  return json.contains("torus") ? read_torus(document, at + "/torus") : read_quad(document, at + "/quad");
+}
+
 }  // namespace
+
+void check_objects(SceneProblems* problems) {
+  const JsonDocument& document = problems->document();
+  if (!document.root().is_object() || !document.root().value("objects", Json()).is_array()) return;
+  for (size_t i = 0; i < document.root().at("objects").size(); ++i) {
+    const std::string object = fmt::format("/objects/{}", i);
+    problems->check(object, [&](const std::string& at) { read_node(document, at); });
+    problems->check(object, [&](const std::string& at) { read_shape(document, at); });
+  }
+}
 
 void add_objects(const JsonDocument& document, double unit, Scene* scene) {
   const Json list = document.root().value("objects", Json::array());
@@ -78,7 +106,7 @@ void add_objects(const JsonDocument& document, double unit, Scene* scene) {
     const std::string at = fmt::format("/objects/{}", i), name = list[i].at("name").get<std::string>();
     if (!names.insert(name).second) throw document.error(at + "/name", "stands twice");
     MovingNode node = read_node(document, at);
-    Mesh mesh = read_torus(document, at + "/torus");
+    Mesh mesh = read_shape(document, at);
     scene->materials.push_back(read_material(list[i].value("material", Json::object()), name));
     scene->animation.nodes.push_back(std::move(node));
     add_object(scene,

@@ -3,8 +3,12 @@
 
 #include "base/json.h"
 #include "scene/scene.h"
+#include "scene/scene_problems.h"
 
 namespace vsglbench {
+
+// All that is wrong with the `objects`, each by itself.
+void check_objects(SceneProblems* problems);
 
 // Appends the `objects` of a document that follows the schema, with materials of their own, and measures how
 // all moves (measure_motion); `unit` is metres per length unit of the views and objects. Error(scene)

@@ -163,6 +163,13 @@ bool pose_all(const JsonDocument& document, const std::string& at, const Motion&
 
 }  // namespace
 
+void check_view(const std::string& pointer, double unit, SceneProblems* problems) {
+  const ViewReader reader(problems->document(), unit);
+  problems->check(pointer + "/region", [&](const std::string& at) { reader.region(at); });
+  problems->check(pointer + "/camera", [&](const std::string& at) { reader.camera(at); });
+  problems->check(pointer + "/light", [&](const std::string& at) { reader.light(at); });
+}
+
 void apply_view(const JsonDocument& document, const std::string& pointer, double unit, Scene* scene) {
   const ViewReader reader(document, unit);
   const std::string camera_at = pointer + "/camera", light_at = pointer + "/light";

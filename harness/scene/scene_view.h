@@ -6,8 +6,13 @@
 #include "base/json.h"
 #include "scene/depth_range.h"
 #include "scene/scene.h"
+#include "scene/scene_problems.h"
 
 namespace vsglbench {
+
+// All that is wrong with a view by itself, whatever the geometry: what apply_view() refuses but for what only
+// a frame shows.
+void check_view(const std::string& pointer, double unit, SceneProblems* problems);
 
 // Sets scene->camera, scene->light, how they move, and scene->region from the view at `pointer` ("/views/A")
 // of a document that follows the schema; `unit` is metres per length unit there. The scene's geometry must be
