@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "reference/test_scenes.h"
+#include "scene/view.h"
 
 namespace vsglbench {
 namespace {

@@ -1,5 +1,6 @@
 #include "scene/gltf_instancing.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 

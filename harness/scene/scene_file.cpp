@@ -236,6 +236,11 @@ Scene load_model(const SceneFile& wanted, const SceneOptions& options) {
       JsonDocument::parse(made.json.dump(2), wanted.path.string(), ErrorKind::scene);
   const auto take = [&](double, Scene* scene) { *scene = std::move(geometry); };
   Scene scene = scene_of(document, wanted.view, options, take);
+  // The notes say what became of the file's cameras and lights, which its geometry alone has no use for.
+  std::erase_if(scene.warnings, [](const std::string& warning) {
+    return warning.find("its cameras are not used") != std::string::npos ||
+           warning.find("KHR_lights_punctual is ignored") != std::string::npos;
+  });
   scene.warnings.insert(scene.warnings.end(), made.notes.begin(), made.notes.end());
   return scene;
 }
