@@ -30,7 +30,7 @@ TEST_P(Interleaving, IsNearerThanAsFewLightsForEach) {
                 shared.smape, 100 * *shared.bias, kLights / (block * block), few.smape);
     EXPECT_LT(shared.smape, few.smape);
     EXPECT_LT(100 * std::abs(*shared.bias), 0.25 * shared.smape);  // it errs to both sides
-    EXPECT_GT(shared.smape, last);  // a wider window joins what differs more
+    EXPECT_GT(shared.smape, last);                                 // a wider window joins what differs more
     last = shared.smape;
   }
 }
