@@ -214,7 +214,7 @@ TEST(Reply, NothingOfAReportReachesTheTerminalRaw) {
   for (int asked = 0; asked < 2; ++asked) {
     const std::string text = reply(report, q);
     EXPECT_EQ(text.find_first_of("\x1b\a"), std::string::npos) << text;
-    EXPECT_TRUE(has(text, "a [31m device")) << text;
+    EXPECT_TRUE(has(text, "a\\x1b[31m device")) << text;
     ask_error("smape<=30", &q);
   }
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/json_number.h"
 #include "base/nearest.h"
 #include "method/method.h"
 
@@ -20,7 +21,7 @@ void check(const MethodInfo& method, const ParameterInfo& parameter, const Json&
     throw wrong(fmt::format("is '{}'{}", text, suggestion(text, parameter.choices)));
   }
   const bool integer = parameter.default_value.is_number_integer();
-  if (!(integer ? value.is_number_integer() : value.is_number())) {
+  if (!(integer ? is_whole(value) : value.is_number())) {
     throw wrong(fmt::format("is {} but must be {}", value.dump(), integer ? "an integer" : "a number"));
   }
   const double number = value.get<double>();
@@ -44,7 +45,8 @@ Json resolve_parameters(const MethodInfo& method, const Json& given) {
   for (const auto& parameter : method.parameters) {
     const Json value = given.contains(parameter.name) ? given.at(parameter.name) : parameter.default_value;
     check(method, parameter, value);
-    resolved[parameter.name] = value;
+    // 16.0 is the integer 16 of a parameter that is one, and stays what it is of one that isn't.
+    resolved[parameter.name] = parameter.default_value.is_number_integer() ? with_integers(value) : value;
   }
   return resolved;
 }

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json_number.h"
 #include "base/nearest.h"
 #include "base/percent.h"
 #include "run/case_keys.h"
@@ -301,8 +300,7 @@ Config load_config(const fs::path& path, const Overrides& overrides, const std::
                                             path.stem().string()));
   }
   check_keys(file);
-  const JsonDocument scaled = at_scale(file, scale);
-  const JsonDocument doc = scaled.patched(with_integers(scaled.root()));
+  const JsonDocument doc = at_scale(file, scale);
   Json root = doc.root();
   apply(overrides, &root);
   apply(choice, &root);

@@ -54,7 +54,7 @@ TEST_F(ConfigTest, EffectsAreNamedInALine) {
       contains(problem_with({{"force_effects", "all,all"}}), "'all' stands for every effect; give it alone"));
   EXPECT_TRUE(contains(problem_with({{"skip_effects", "moving_light"}}),
                        "moving_light is the scene's: it can be neither forced nor skipped"));
-  EXPECT_TRUE(contains(problem_with({{"skip_effects", Json::array()}}), "has 0 items but needs 1"));
+  EXPECT_TRUE(contains(problem_with({{"skip_effects", Json::array()}}), "is an empty list; give at least 1"));
   EXPECT_TRUE(contains(problem_with({{"skip_effects", 3}}), "must be string"));
   EXPECT_TRUE(contains(problem_with({{"skip_effects", "occlusion"}, {"force_effects", {"", "all"}}}),
                        "both forces and skips occlusion; name it in one of the two"));
@@ -91,7 +91,7 @@ TEST_F(ConfigTest, WrongTypesAndRanges) {
   EXPECT_TRUE(contains(after("/reference/floor", "2"), "no noise floor"));
   EXPECT_TRUE(contains(after("/reference/floor", "300%"), "no noise floor"));
   EXPECT_TRUE(contains(after("/reference/time_limit_s", 5), "give one"));
-  EXPECT_TRUE(contains(after("/scenes", Json::array()), "needs 1"));
+  EXPECT_TRUE(contains(after("/scenes", Json::array()), "give at least 1"));
   EXPECT_TRUE(contains(after("/name", "../up"), "does not match"));
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/json_number.h"
 #include "base/nearest.h"
 #include "run/method_keys.h"
 
@@ -15,7 +14,7 @@ namespace {
 Json value_of(const std::string& text) {
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < 4; };
   const Json value = Json::parse(text, shallow, false);
-  return value.is_discarded() ? Json(text) : with_integers(value);
+  return value.is_discarded() ? Json(text) : value;
 }
 
 // A setting as messages repeat it.

@@ -55,7 +55,7 @@ TEST_F(PdfSourceTest, WhatIsNoneIsSaidWhenTheConfigIsLoaded) {
   EXPECT_TRUE(contains(problem_with(""), "pdf"));
   EXPECT_TRUE(contains(problem_with(3), "pdf"));
   EXPECT_TRUE(contains(problem_with({"mfis", "mfsi"}), "did you mean 'mfis'?"));
-  EXPECT_TRUE(contains(problem_with(Json::array()), "has 0 items but needs 1"));
+  EXPECT_TRUE(contains(problem_with(Json::array()), "is an empty list; give at least 1"));
   config_["pdf"] = "mfis";
   config_["methods"][1]["pdf"] = "mfsi";
   EXPECT_TRUE(contains(problem(), "'methods/1/pdf' no PDF 'mfsi'"));

@@ -61,7 +61,7 @@ class PlantedTree {
   static bool is_read_at_run_time(const std::filesystem::path& file) {
     const std::string suffix = file.extension();
     return suffix == ".glsl" || suffix == ".comp" || suffix == ".vert" || suffix == ".frag" ||
-           suffix == ".json" || file.filename() == "types.h";
+           suffix == ".json" || suffix == ".csv" || file.filename() == "types.h";
   }
   std::filesystem::path source_, root_;
 };
