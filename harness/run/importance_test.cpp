@@ -120,7 +120,7 @@ TEST(ImportanceOracle, SeesPlantedFaults) {
               "r.peak = ndf_peak(s.ndf); float eta = r.eta_x; r.eta_x = r.eta_y; r.eta_y = eta;"},
         Fault{"vpl", "VSGLBENCH_BRDF_GLSL", "fresnel(s.f0, dot(l, h))) * nl;", "fresnel(s.f0, dot(l, h)));"},
         Fault{"vsgl", "VSGLBENCH_RECEIVER_GLSL", "r.alpha) * cosine * lobe", "r.alpha) * lobe"},
-        Fault{"vpl", "// BRSM:", "luminance(t.flux * sum)", "2.0 * luminance(t.flux * sum)"}}) {
+        Fault{"vpl", "// BRSM:", "luminance(flux[j] * sums[j])", "2.0 * luminance(flux[j] * sums[j])"}}) {
     const uint32_t lights = f.importance == std::string("vsgl") ? 4096 : 256;
     const Difference sound = difference(f.importance, lights);
     const PlantedTree tree;
