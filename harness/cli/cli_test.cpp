@@ -28,7 +28,7 @@ TEST_F(CliTest, BadUsageIsOneLineAndExitCode2) {
   expect_refused(run({}), 2, "subcommand is required");
   EXPECT_FALSE(contains(run({"kernls"}).err, "'kernels'"));  // a name of old, which is not shown
   expect_refused(run({"rnu", "x"}), 2, "no command 'rnu'; did you mean 'run'?");
-  expect_refused(run({"run"}), 2, "config is required");
+  expect_refused(run({"run"}), 2, "no experiment: give a config");
   expect_refused(run({"run", "quick", "--out", "o\xff"}), 2, "argument 4 is not UTF-8");
   expect_refused(run({"run", "quick", "--ouput", "x"}), 2, "--ouput");
   expect_refused(run({"run", "quik"}), 2, "no config 'quik'; did you mean 'quick'?");
