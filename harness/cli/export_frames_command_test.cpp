@@ -51,7 +51,7 @@ TEST_F(ExportFramesCommand, NothingThatItPrintsSteersTheTerminalOrTheShell) {
   const Finished f = export_frames({"--out", out() + "/a\x1b", "--display", "x; \x1b[31m"});
   EXPECT_EQ(f.code, 0) << f.err;
   EXPECT_EQ(f.out.find('\x1b'), std::string::npos) << f.out;
-  EXPECT_TRUE(contains(f.out, "--display 'x;  [31m'\n"));
+  EXPECT_TRUE(contains(f.out, "--display 'x; \\x1b[31m'\n"));
 }
 
 TEST_F(ExportFramesCommand, WhatCantBeWrittenIsALine) {
