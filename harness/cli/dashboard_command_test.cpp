@@ -18,7 +18,8 @@ TEST_F(CliTest, DashboardRefusesWhatItCanNotShow) {
   expect_refused(run({"dashboard", cut, "--out", out, "--images", "jpg"}), 2, "there are none, png, exr");
   expect_refused(run({"dashboard", cut, "--out", out, "--metric", "smap"}), 2, "did you mean 'smape'");
   expect_refused(run({"dashboard", cut, "--out", out, "--max-mb", "-1"}), 2, "--max-mb -1: is below 0; name");
-  expect_refused(run({"dashboard", cut, "--out", out, "--max-mb", "nan"}), 2, "--max-mb: nan is no finite number");
+  expect_refused(run({"dashboard", cut, "--out", out, "--max-mb", "nan"}), 2,
+                 "--max-mb: nan is no finite number");
   expect_refused(run({"dashboard", cut, "--out", folder_.string()}), 2, ": is a folder; name a file in it");
   const std::string report = cut + "/report.json";
   expect_refused(run({"dashboard", cut, "--out", out, "--papers", report}), 2, "no papers.json");
