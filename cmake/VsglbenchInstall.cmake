@@ -14,16 +14,7 @@ function(vsglbench_install_library target room)
           FILES_MATCHING PATTERN "*.h" PATTERN "*test*" EXCLUDE PATTERN "oracle.h" EXCLUDE)
 endfunction()
 
-# A message names harness/x.cpp, on any machine. Behind a compiler cache, which may share objects among clones, that is
-# its own affair ($CCACHE_BASEDIR).
-function(vsglbench_relative_messages target)
-  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_compile_options(${target} PRIVATE -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
-  endif()
-endfunction()
-
 function(vsglbench_install_test program)
-  vsglbench_relative_messages(${program})
   set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
   install(TARGETS ${program} RUNTIME DESTINATION tests COMPONENT tests EXCLUDE_FROM_ALL OPTIONAL)
 endfunction()

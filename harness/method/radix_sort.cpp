@@ -10,7 +10,7 @@
 namespace vsglbench {
 namespace {
 
-constexpr uint32_t kTileKeys = 2048;  // as in shaders/radix_tile.glsl
+constexpr uint32_t kTileKeys = 2048, kLeastSubgroup = 8;  // as in shaders/radix_tile.glsl
 // Keys of a run, of which an invocation takes 4 a round.
 constexpr uint32_t kMostRun = 1u << 17;
 static_assert(kMostRun / 4 < limits::loop_rounds);
@@ -44,6 +44,8 @@ RadixSort::RadixSort(MethodContext& context, RadixVariant variant)
       lanes_(context.device().is_cpu() ? 8 : 64),
       max_groups_(context.device().is_cpu() ? 4 : 64),
       digit_bits_(variant == RadixVariant::serial && context.device().is_cpu() ? 12 : 8) {
+  if (variant == RadixVariant::tile && context.device().info().subgroup_size < kLeastSubgroup)
+    throw std::logic_error(fmt::format("radix sort by tiles needs subgroups of at least {}", kLeastSubgroup));
   const bool serial = variant == RadixVariant::serial;
   const ShaderDefines defines = serial ? ShaderDefines{{"LANES", std::to_string(lanes_)}} : ShaderDefines{};
   ShaderDefines index_defines = defines;

@@ -4,6 +4,7 @@
 #define TILE_ROUNDS 16  // keys of one invocation
 #define TILE_KEYS (TILE_THREADS * TILE_ROUNDS)
 #define MAX_BINS 256
+#define MAX_SUBGROUPS 16  // a device with subgroups of fewer than 8 doesn't get this variant
 layout(local_size_x = TILE_THREADS) in;
 layout(push_constant, std430) uniform Push {
   uint count;  // keys
