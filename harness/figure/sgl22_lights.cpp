@@ -10,12 +10,12 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/parallel.h"
 #include "figure/model_times.h"
 #include "figure/sgl22.h"
 #include "frame/frame.h"
 #include "measure/statistics.h"
 #include "method/registry.h"
-#include "reference/parallel.h"
 #include "scene/scene_file.h"
 #include "shaders/shading_exact.h"
 

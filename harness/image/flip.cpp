@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "image/flip_color.h"
 #include "image/quantile.h"
 
@@ -12,7 +14,8 @@ namespace {
 
 constexpr double kToneTarget = 0.85;
 constexpr float kLargestScale = 1e38f;
-constexpr uint64_t kMostKept = uint64_t(256) << 20;  // bytes; a larger reference is looked at anew each time
+constexpr uint64_t kMostKept = uint64_t(512) << 20;  // bytes; a larger reference is looked at anew each time
+constexpr uint64_t kMostInWork = uint64_t(2) << 30, kInWorkPerPixel = 100;  // bytes; of exposures at a time
 
 double luminance64(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
@@ -50,7 +53,16 @@ FlipReference::FlipReference(const Image& r, const Mask& mask, const FlipExposur
       red_green_(red_green_sensitivity(kFlipPixelsPerDegree)),
       blue_yellow_(blue_yellow_sensitivity(kFlipPixelsPerDegree)) {
   if (r.pixels.size() * exposures.count * (sizeof(glm::vec3) + 2 * sizeof(float)) > kMostKept) return;
-  for (uint32_t i = 0; i < exposures.count; ++i) views_.push_back(view(r, exposures.exposure(i)));
+  views_.resize(exposures.count);
+  at_every_exposure([&](uint32_t i) { views_[i] = view(r, exposures.exposure(i)); });
+}
+
+// In no order, several at a time.
+template <class Work>
+void FlipReference::at_every_exposure(const Work& work) const {
+  const uint64_t fit = kMostInWork / (1 + reference_.pixels.size() * kInWorkPerPixel);
+  const auto threads = static_cast<unsigned>(std::clamp<uint64_t>(fit, 1, thread_count(0)));
+  parallel_for(exposures_.count, threads, [&](uint64_t i, unsigned) { work(static_cast<uint32_t>(i)); });
 }
 
 FlipReference::View FlipReference::view(const Image& image, double exposure) const {
@@ -80,20 +92,24 @@ FlipReference::View FlipReference::view(const Image& image, double exposure) con
 Plane FlipReference::error_map(const Image& x) const {
   check_comparable(x, reference_, mask_);
   Plane worst(x.width, x.height);
-  for (uint32_t e = 0; e < exposures_.count; ++e) {
+  std::mutex mutex;
+  at_every_exposure([&](uint32_t e) {
     const View seen = view(x, exposures_.exposure(e));
     View fresh;
     if (views_.empty()) fresh = view(reference_, exposures_.exposure(e));
     const View& r = views_.empty() ? fresh : views_[e];
-    for (size_t i = 0; i < worst.values.size(); ++i) {
+    Plane errors(x.width, x.height);
+    for (size_t i = 0; i < errors.values.size(); ++i) {
       if (!mask_.empty() && !mask_[i]) continue;
       const float edges = std::abs(seen.features.edges.values[i] - r.features.edges.values[i]);
       const float points = std::abs(seen.features.points.values[i] - r.features.points.values[i]);
       const float feature = std::sqrt(std::max(edges, points) / std::sqrt(2.0f));
-      const float error = std::pow(color_error(seen.hunt_lab[i], r.hunt_lab[i]), 1 - feature);
-      worst.values[i] = std::max(worst.values[i], error);
+      errors.values[i] = std::pow(color_error(seen.hunt_lab[i], r.hunt_lab[i]), 1 - feature);
     }
-  }
+    const std::lock_guard lock(mutex);
+    for (size_t i = 0; i < errors.values.size(); ++i)
+      worst.values[i] = std::max(worst.values[i], errors.values[i]);
+  });
   return worst;
 }
 

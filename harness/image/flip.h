@@ -51,6 +51,8 @@ class FlipReference {
     Features features;
   };
   View view(const Image& image, double exposure) const;
+  template <class Work>
+  void at_every_exposure(const Work& work) const;
 
   Image reference_;
   Mask mask_;

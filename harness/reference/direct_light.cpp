@@ -1,7 +1,7 @@
 #include "reference/direct_light.h"
 
+#include "base/parallel.h"
 #include "reference/brdf.h"
-#include "reference/parallel.h"
 #include "scene/view.h"
 
 namespace vsglbench {

@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "image/noise_floor.h"
 #include "reference/accumulator.h"
 #include "reference/noise.h"
-#include "reference/parallel.h"
 #include "reference/strategies.h"
 
 namespace vsglbench {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "reference/parallel.h"
+#include "base/parallel.h"
 
 namespace vsglbench {
 namespace {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "reference/parallel.h"
+#include "base/parallel.h"
 
 namespace vsglbench {
 namespace {

@@ -167,7 +167,7 @@ void CaseRun::look_at(uint32_t seed) {
 void CaseRun::start_scoring() {
   const auto crop =
       input_.region ? pixels_of(*input_.region, case_.frame.width, case_.frame.height) : std::nullopt;
-  scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference), crop);
+  scoring_ = std::make_unique<Scoring>(*input_.reference, make_mask(*input_.reference), crop, input_.flip);
 }
 
 void CaseRun::settle() {

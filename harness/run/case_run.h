@@ -23,6 +23,7 @@ namespace vsglbench {
 struct CaseInput {
   const ReferenceResult* reference = nullptr;     // that matches its visibility, for whole frames
   const ReferenceInfo* reference_info = nullptr;  // of that reference
+  FlipKeeper* flip = nullptr;                     // of the scene's cases
   std::optional<Region> region;                   // of the view
   const KeptPdfs* pdfs = nullptr;                 // for generation alone
   ExactVisibility exact;

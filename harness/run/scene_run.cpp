@@ -59,6 +59,7 @@ class SceneRun {
   SceneReport report_;
   SceneImages images_;
   bool wants_twin_;
+  FlipKeeper flip_;
   std::vector<CaseRun> runs_;  // the twin, if there is one, last
   std::vector<CaseResult> results_;
   uint64_t kept_bytes_ = 0;
@@ -101,6 +102,7 @@ CaseInput SceneRun::input_of(CaseRun& run) {
     observer_.now({c.id, "computing its reference", false});
     input.reference = &truth_->references.get(c);
     input.reference_info = &truth_->references.info(c);
+    input.flip = &flip_;
     input.region = scene_.region;
   }
   input.exact = [this, &run](const std::vector<LightPoint>& lights) {

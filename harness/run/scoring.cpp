@@ -23,14 +23,26 @@ std::optional<double> detail_of(const Image& x, const Image& half0, const Image&
 
 }  // namespace
 
-Scoring::Scoring(const ReferenceResult& reference, Mask mask, const std::optional<Crop>& region)
+std::shared_future<FlipReference> FlipKeeper::get(const ReferenceResult& reference, const Mask& mask,
+                                                  const FlipExposures& exposures) {
+  const auto same = std::ranges::find_if(
+      kept_, [&](const Kept& kept) { return kept.hash == reference.hash && kept.mask == mask; });
+  if (same != kept_.end()) return same->flip;
+  if (kept_.size() == 2) kept_.erase(kept_.begin());
+  kept_.push_back({reference.hash, mask, std::async(std::launch::async, [&reference, mask, exposures] {
+                     return FlipReference(reference.mean, mask, exposures);
+                   })});
+  return kept_.back().flip;
+}
+
+Scoring::Scoring(const ReferenceResult& reference, Mask mask, const std::optional<Crop>& region,
+                 FlipKeeper* keeper)
     : reference_(reference),
       mask_(std::move(mask)),
       exposures_(vsglbench::flip_exposures(reference.mean, mask_)) {
   if (region) take_region(*region);
-  if (!exposures_) return;
-  flip_ =
-      std::async(std::launch::async, [this] { return FlipReference(reference_.mean, mask_, *exposures_); });
+  FlipKeeper own;
+  if (exposures_) flip_ = (keeper ? *keeper : own).get(reference_, mask_, *exposures_);
 }
 
 // Where no pixel counts there is no region.

@@ -23,11 +23,28 @@ struct SeedScore {
   std::optional<RegionErrors> region;
 };
 
+// The last references as FLIP sees them, for all cases that are compared with one over the same pixels.
+class FlipKeeper {
+ public:
+  // Made on another thread where it isn't kept; `reference` outlives the making.
+  std::shared_future<FlipReference> get(const ReferenceResult& reference, const Mask& mask,
+                                        const FlipExposures& exposures);
+
+ private:
+  struct Kept {
+    std::string hash;
+    Mask mask;
+    std::shared_future<FlipReference> flip;
+  };
+  std::vector<Kept> kept_;  // two, those of cases with exact visibility and without; the latest last
+};
+
 class Scoring {
  public:
   // `reference` outlives it. FLIP looks at an image once an exposure: where that takes long, it is measured
   // for seed 0 alone. `region`: where errors are also measured by themselves.
-  Scoring(const ReferenceResult& reference, Mask mask, const std::optional<Crop>& region = std::nullopt);
+  Scoring(const ReferenceResult& reference, Mask mask, const std::optional<Crop>& region = std::nullopt,
+          FlipKeeper* keeper = nullptr);
   // Starts. Waits while more images are open than memory should hold.
   void add(uint64_t seed, Image image);
   // Waits for all of them; by seed. Throws what measuring threw.

@@ -144,5 +144,28 @@ TEST(Scoring, ARegionOfWhichNoPixelCountsIsNone) {
   EXPECT_FALSE(Scoring(m.reference, m.mask).has_region());
 }
 
+// Its own mask, its own reference: never those of another case.
+TEST(Scoring, AKeptReferenceOfFlipServesTheSamePixelsAlone) {
+  Made m, other;
+  m.reference.hash = "a";
+  other.reference.hash = "b";
+  for (glm::vec3& p : other.reference.mean.pixels) p *= 0.5f;
+  Mask fewer = m.mask;
+  for (size_t i = 0; i < fewer.size() / 2; ++i) fewer[i] = 0;
+  FlipKeeper keeper;
+  const auto flip = [&](const Made& made, const Mask& mask, FlipKeeper* kept) {
+    Scoring scoring(made.reference, mask, std::nullopt, kept);
+    scoring.add(0, made.x);
+    return scoring.collect().at(0).errors.flip.value();
+  };
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(flip(m, m.mask, &keeper), flip(m, m.mask, nullptr));
+    EXPECT_EQ(flip(m, fewer, &keeper), flip(m, fewer, nullptr));
+    EXPECT_EQ(flip(other, m.mask, &keeper), flip(other, m.mask, nullptr));
+  }
+  EXPECT_NE(flip(m, m.mask, nullptr), flip(m, fewer, nullptr));
+  EXPECT_NE(flip(m, m.mask, nullptr), flip(other, m.mask, nullptr));
+}
+
 }  // namespace
 }  // namespace vsglbench
