@@ -110,6 +110,10 @@ void print_text(const Json& rows) {
       fmt::print("{}{} (default {}; {}): {}\n", indent, p["name"].get<std::string>(),
                  number_text(p["default"]), range, p["description"].get<std::string>());
     }
+    const Json defaults = row.value("case_defaults", Json());
+    for (const auto& [key, value] : defaults.items())
+      fmt::print("{}{} is {} unless a config says otherwise\n", indent, printable(key),
+                 printable(value.dump()));
     if (row.contains("values")) {
       const Json& value = row["default"];
       fmt::print("{}default {}; {}; read by: {}\n", indent,

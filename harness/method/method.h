@@ -153,6 +153,9 @@ struct MethodInfo {
   // is set. With all others it makes VSGLs, and a config's shading keys are read.
   Json makes_vpls;
   std::vector<ParameterInfo> parameters;
+  // What the keys of every case are for this method where a config leaves them out, in place of the harness'
+  // own defaults: {{"shading", "vsgl14"}}. Null: nothing.
+  Json case_defaults;
   // Optional features that the device must have, as `vsglbench list devices` names them.
   std::vector<std::string> device_features;
   // How far the lights' summed power may be from the texels', |Σ light/Σ texel - 1|, in the mean over shifts

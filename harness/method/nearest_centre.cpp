@@ -11,13 +11,15 @@ ShaderDefines search_defines(int dimensions, glm::uvec2 block) {
   return defines;
 }
 
-// Texels that one invocation searches for together. On lavapipe 8 × 4 takes 0.7 to 0.9 of the time of 4 × 4;
-// 8 × 8 takes more than twice as long.
-glm::uvec2 block_size(NearestCentre::Search search) {
-  return search == NearestCentre::Search::kd_tree ? glm::uvec2(1, 1) : glm::uvec2(8, 4);
-}
-
 }  // namespace
+
+// On lavapipe 8 × 4 takes 0.7 to 0.9 of the time of 4 × 4; 8 × 8 takes more than twice as long. On an H200 an
+// RSM of 512² is too few blocks of 8 × 4 to fill it: 0.37 to 1.6 ms, texel by texel 0.26 to 0.31
+// (reports/h200).
+glm::uvec2 choose_search_block(NearestCentre::Search search, const DeviceInfo& info) {
+  const bool together = search == NearestCentre::Search::tiles && info.type == "cpu";
+  return together ? glm::uvec2(8, 4) : glm::uvec2(1, 1);
+}
 
 CentreSampler::CentreSampler(MethodContext& context, int dimensions)
     : kernel_(context.shared_kernel("centres.comp", {{"DIMENSIONS", std::to_string(dimensions)}})) {}
@@ -34,7 +36,7 @@ void CentreSampler::record(Recorder& r, const Field& field, glm::uvec2 shift, co
 
 NearestCentre::NearestCentre(MethodContext& context, int dimensions, Search search)
     : tree_(context, dimensions),
-      block_(block_size(search)),
+      block_(choose_search_block(search, context.device().info())),
       search_(context.shared_kernel("nearest_centre.comp", search_defines(dimensions, block_))) {}
 
 void NearestCentre::record(Recorder& r, const Field& field, const Buffer& centres, uint32_t count,

@@ -24,7 +24,7 @@ class NearestCentre {
  public:
   enum class Search {
     kd_tree,  // every texel by itself, as the paper does
-    tiles     // blocks of neighbouring texels together
+    tiles     // blocks of neighbouring texels together, where that pays (choose_search_block)
   };
   // `dimensions`: 2, between texel centres in the image, in texels; 3, between positions, in metres.
   NearestCentre(MethodContext& context, int dimensions, Search search);
@@ -40,5 +40,10 @@ class NearestCentre {
   glm::uvec2 block_;
   const Kernel& search_;
 };
+
+// Texels that one invocation searches for together, along x and y. `tiles` blocks where few invocations run
+// at a time (a CPU); a GPU has more invocations than a half has blocks, and searches for every texel by
+// itself.
+glm::uvec2 choose_search_block(NearestCentre::Search search, const DeviceInfo& info);
 
 }  // namespace vsglbench

@@ -261,3 +261,13 @@ TEST(NearestCentre, IsSilentUnderValidation) {
   }
   for (const auto& message : checked.validation_messages()) ADD_FAILURE() << message;
 }
+
+TEST(NearestCentre, TheSearchsBlocksAreChosenByDevice) {
+  DeviceInfo info;
+  info.type = "cpu";
+  EXPECT_EQ(choose_search_block(Search::tiles, info), glm::uvec2(8, 4));
+  EXPECT_EQ(choose_search_block(Search::kd_tree, info), glm::uvec2(1, 1));
+  info.type = "discrete";
+  EXPECT_EQ(choose_search_block(Search::tiles, info), glm::uvec2(1, 1));
+  EXPECT_EQ(choose_search_block(Search::kd_tree, info), glm::uvec2(1, 1));
+}

@@ -10,7 +10,7 @@ namespace vsglbench {
 // Raised with every change to what a method and the host share (method/, gpu/, shaders/types.h, base/): a
 // plugin of another number is refused before anything else of it is used. plugin_test.cpp holds it to the
 // sizes of the shared types.
-inline constexpr uint32_t plugin_abi = 8;
+inline constexpr uint32_t plugin_abi = 9;
 
 struct PluginHeader {
   uint32_t abi;  // stands first in every version

@@ -302,6 +302,7 @@ void from_json(const Json& j, MethodInfo* info) {
   info->takes_light_count = j.at("takes_light_count");
   info->light_count = j.at("light_count");
   info->makes_vpls = j.at("makes_vpls");
+  info->case_defaults = j.value("case_defaults", Json());
   info->device_features = j.at("device_features");
   info->flux_bound = j.at("flux_bound");
   info->uneven_flux_bound = j.at("uneven_flux_bound");
@@ -333,6 +334,7 @@ Json to_json(const MethodInfo& method) {
       {"light_count", method.light_count},
       {"makes_vpls", method.makes_vpls},
       {"parameters", std::move(parameters)},
+      {"case_defaults", method.case_defaults},
       {"device_features", method.device_features},
       {"flux_bound", method.flux_bound},
       {"uneven_flux_bound", method.worst_flux_bound()},

@@ -41,6 +41,7 @@ class Entry {
         method_(find()),
         keys_{method_, root.value("measure", "frame") == "frame"} {
     for (const auto& [key, value] : overrides.items()) preset_.erase(key);
+    check_case_defaults();
     check_keys();
     add_axes();
   }
@@ -68,6 +69,16 @@ class Entry {
       return find_method(name.get<std::string>());
     } catch (const Error& e) {
       throw doc_.error(at_ + "/method", e.what());
+    }
+  }
+
+  void check_case_defaults() const {
+    if (method_.case_defaults.is_null()) return;
+    for (const auto& [name, value] : method_.case_defaults.items()) {
+      if (!find_case_key(name))
+        throw doc_.error(at_ + "/method",
+                         fmt::format("plugin {}: its case_defaults name '{}', which is no key of every case",
+                                     method_.library.string(), name));
     }
   }
 
@@ -103,14 +114,17 @@ class Entry {
     }
   }
 
-  // From the entry, its preset, the config's own lists, their preset, or the default: the first that has the
-  // key.
+  // From the entry, its preset, the config's own lists, their preset, the method's own default, or the key's:
+  // the first that has the key.
   void add_axis(const CaseKey& key) {
     const std::string own = at_ + "/" + pointer_token(key.name);
-    const std::pair<const Json*, std::string> sources[] = {
-        {&json_, own}, {&preset_, at_ + "/preset"}, {&root_, "/" + key.name}, {&root_preset_, "/preset"}};
+    const std::pair<const Json*, std::string> sources[] = {{&json_, own},
+                                                           {&preset_, at_ + "/preset"},
+                                                           {&root_, "/" + key.name},
+                                                           {&root_preset_, "/preset"},
+                                                           {&method_.case_defaults, at_ + "/method"}};
     for (const auto& [source, at] : sources) {
-      if (source->contains(key.name))
+      if (source->is_object() && source->contains(key.name))
         return push_axis(key.name, &key, checked(key, source->at(key.name), at), source == &json_);
     }
     push_axis(key.name, &key, key.default_value, false);

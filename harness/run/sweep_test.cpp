@@ -37,6 +37,23 @@ TEST_F(ConfigTest, ParametersAreResolvedWithDefaults) {
   }
 }
 
+TEST_F(ConfigTest, AMethodsOwnDefaultsGiveWayToTheConfig) {
+  config_ = Json::parse(
+      R"({"name": "d", "scenes": ["cornell"], "methods": [{"method": "mfis"}, {"method": "cut"}]})");
+  const auto value = [&](size_t i, const char* key) { return load().cases.at(i).parameters.at(key); };
+  EXPECT_EQ(value(0, "shading"), "vsgl16");
+  EXPECT_EQ(value(0, "importance_lights"), 2048);
+  EXPECT_EQ(value(1, "shading"), "vsgl14");
+  EXPECT_EQ(value(1, "importance_lights"), 128);
+  config_["importance_lights"] = 512;
+  EXPECT_EQ(value(1, "importance_lights"), 512);
+  config_["methods"][1]["shading"] = "vsgl16";
+  EXPECT_EQ(value(1, "shading"), "vsgl16");
+  config_["methods"][1].erase("shading");
+  config_["preset"] = "papers/mfis16";
+  EXPECT_EQ(value(1, "shading"), "vsgl16");
+}
+
 TEST_F(ConfigTest, LightsAreNotReadByAllTexels) {
   config_["methods"] = {{{"method", "all-texels"}, {"N", 4}}};
   EXPECT_TRUE(contains(problem(), "is not read: all-texels makes a light of every texel"));

@@ -149,6 +149,7 @@ VSGLBENCH_METHOD(MethodInfo{
     .parameters =
         {{"direction", 0.5, "what a unit normal counts, in RMS distances of the samples", 0.0, 100.0, {}},
          {"samples", 4, "samples of the PDF a light that the tree is made of", 1, 64, {}}},
+    .case_defaults = {{"shading", "vsgl14"}, {"importance_lights", 128}},
     .flux_bound = 1e-4,  // every texel is in one leaf
     .create = [](MethodContext& context, const Json& p) -> std::unique_ptr<Method> {
       return std::make_unique<Cut>(context, p.at("direction").get<float>(), p.at("samples").get<uint32_t>());
