@@ -1,49 +1,70 @@
 // What ci/beside measured, as a table: node ci/beside.mjs FOLDER ROUNDS
+// Times are the least of all samples, which other work on the machine touches last: those of the odd rounds and those
+// of the even ones, and what both together say.
 import { readFileSync } from 'node:fs';
 
 const [folder, rounds] = [process.argv[2], Number(process.argv[3])];
 const read = (name, file) => JSON.parse(readFileSync(`${folder}/${name}/${file}`, 'utf8'));
 
-// Milliseconds by what was timed: passes summed over the cases of a run, and building blocks.
-function times(name) {
+// Least milliseconds of some rounds by what was timed: passes of each case, and building blocks.
+function least(which, some) {
   const found = new Map();
-  for (const one of read(name, 'report.json').cases) {
-    for (const pass of one.passes ?? [])
-      found.set(pass.name, (found.get(pass.name) ?? 0) + pass.median_ms);
-  }
-  for (const block of read(name, 'blocks.json').blocks) {
-    for (const time of block.times) {
-      if (time.on_device === false) continue;
-      found.set(`${block.block}, ${time.input}, ${time.contestant}, ${time.size}`, time.median_ms);
+  const see = (what, part, ms) => {
+    if (!found.has(what)) found.set(what, new Map());
+    const parts = found.get(what);
+    parts.set(part, Math.min(ms, parts.get(part) ?? Infinity));
+  };
+  for (const round of some) {
+    for (const one of read(`${which}-${round}`, 'report.json').cases) {
+      for (const pass of one.passes ?? []) see(pass.name, one.id, pass.min_ms);
+    }
+    for (const block of read(`${which}-${round}`, 'blocks.json').blocks) {
+      for (const time of block.times) {
+        if (time.on_device === false) continue;
+        see(`${block.block}, ${time.input}, ${time.contestant}, ${time.size}`, '', Math.min(...time.samples_ms));
+      }
     }
   }
   return found;
 }
 
-const median = (values) => {
-  const sorted = [...values].sort((a, b) => a - b);
-  const half = sorted.length >> 1;
-  return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-};
-
-const ratios = new Map();
-for (let round = 1; round <= rounds; ++round) {
-  const [before, after] = [times(`old-${round}`), times(`new-${round}`)];
-  for (const [what, ms] of after) {
-    if (!before.has(what) || !(ms > 0)) continue;
-    if (!ratios.has(what)) ratios.set(what, []);
-    ratios.get(what).push({ ratio: before.get(what) / ms, before: before.get(what), after: ms });
+const sum = (parts) => [...parts.values()].reduce((a, b) => a + b, 0);
+// Where work has moved between two passes, both together, over the cases that have both.
+function add_together(found, name, first, second) {
+  if (!found.has(first) || !found.has(second)) return;
+  const both = new Map();
+  for (const [id, ms] of found.get(first)) {
+    if (found.get(second).has(id)) both.set(id, ms + found.get(second).get(id));
   }
+  found.set(name, both);
 }
+
+function compare(some) {
+  const [before, after] = [least('old', some), least('new', some)];
+  for (const found of [before, after]) {
+    for (const half of ['gbuffer', 'rsm'])
+      add_together(found, `generate.${half}, resolve and mipmap`, `generate.${half}.resolve`, `generate.${half}.mipmap`);
+  }
+  const rows = new Map();
+  for (const [what, parts] of after) {
+    if (before.has(what) && sum(parts) > 0) rows.set(what, { before: sum(before.get(what)), after: sum(parts) });
+  }
+  return rows;
+}
+
+const all = Array.from({ length: rounds }, (_, i) => i + 1);
+const together = compare(all);
+const halves = rounds > 1 ? [0, 1].map((odd) => compare(all.filter((round) => round % 2 !== odd))) : [together];
 let slower = 0;
-console.log(`${'timed'.padEnd(52)} ${'old ms'.padStart(10)} ${'new ms'.padStart(10)} ${'old/new'.padStart(8)}  range`);
-for (const [what, all] of ratios) {
-  const values = all.map((one) => one.ratio), sorted = [...values].sort((a, b) => a - b);
-  const worse = median(values) < 1 / 1.05 && (sorted[sorted.length - 2] ?? sorted[0]) < 1 / 1.05;
+console.log(`${'timed'.padEnd(52)} ${'old ms'.padStart(10)} ${'new ms'.padStart(10)} ${'old/new'.padStart(8)}  odd, even`);
+for (const [what, row] of together) {
+  const ratio = (one) => one.before / one.after;
+  const each = halves.map((half) => ratio(half.get(what)));
+  const worse = [ratio(row), ...each].every((r) => r < 1 / 1.05);
   slower += worse ? 1 : 0;
-  const ms = (key) => median(all.map((one) => one[key])).toFixed(3).padStart(10);
-  console.log(`${what.padEnd(52)} ${ms('before')} ${ms('after')} ${median(values).toFixed(2).padStart(8)}  ` +
-              `${sorted[0].toFixed(2)} … ${sorted.at(-1).toFixed(2)}${worse ? '  slower' : ''}`);
+  const ms = (value) => value.toFixed(3).padStart(10);
+  console.log(`${what.padEnd(52)} ${ms(row.before)} ${ms(row.after)} ${ratio(row).toFixed(2).padStart(8)}  ` +
+              `${each.map((r) => r.toFixed(2)).join(', ')}${worse ? '  slower' : ''}`);
 }
-console.log(`${rounds} rounds, the two in turn; ${slower} of ${ratios.size} are slower`);
+console.log(`${rounds} rounds, the two in turn; ${slower} of ${together.size} are slower`);
 process.exit(slower > 0 ? 4 : 0);

@@ -81,7 +81,7 @@ class MipmapBlock : public Block {
     leaves_.resize(size);
     for (uint32_t i = 0; i < size; ++i) leaves_[i] = oracle::texel_sums(half_, i % width, i / width);
     return {{"host, 2 threads", false, [this] { return reduce_on_host(); }, [] { return ""; }},
-            {"mipmap", true, [this] { return reduce_on_device(); }, [this] { return mistake(); }}};
+            {"leaves and mipmap", true, [this] { return reduce_on_device(); }, [this] { return mistake(); }}};
   }
 
  private:
