@@ -175,7 +175,8 @@ export interface Change {
   ratio: number; // now over before
   lo: number;
   hi: number;
-  persistent: boolean; // every report since is as much beyond the noise, on the same side
+  since: number | null; // of what crept from there, with no step that shows it: the report that it is held against
+  persistent: boolean; // every report since is as much beyond the noise, on the same side; so is what crept
 }
 
 export interface History {
