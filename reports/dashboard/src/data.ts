@@ -192,7 +192,8 @@ export interface Comparison {
   refusal: string;
   exit_code: number;
   summary: string; // the text of `vsglbench compare`
-  rows: { case: string; what: string; base: number | null; now: number | null; ratio: number; lo: number; hi: number; noise: number | null; change: string }[];
+  // method: "", where it is over all of them
+  rows: { case: string; method: string; what: string; base: number | null; now: number | null; ratio: number; lo: number; hi: number; noise: number | null; change: string }[];
 }
 
 export interface Stability {

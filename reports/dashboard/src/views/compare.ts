@@ -5,7 +5,7 @@ import { figure } from "../format";
 import { table, type Column } from "../table";
 import type { Page, View } from "../view";
 import { changeGlyph, changeText, changeWithInterval, kindOf, percentChange } from "./changes";
-import { countsOf, exitText, hiddenChanges, shownRows, type Row } from "./compare_model";
+import { countsOf, exitText, hiddenChanges, methodsOf, shownRows, type Row } from "./compare_model";
 import { filterBox } from "./filter_box";
 import { axisHead, axisRound, intervalMark, type Axis } from "./interval_mark";
 import "./compare.css";
@@ -89,7 +89,8 @@ function rowsTable(page: Page, rows: Row[]): HTMLElement {
 export const compareView: View = {
   id: "compare",
   title: "Compare",
-  filters: [],
+  filters: ["methods"],
+  methods: ({ digest }) => methodsOf(digest.comparison?.rows ?? []),
   has: (page) => page.digest.comparison !== null,
   draw(root, page) {
     const c = page.digest.comparison!, body = h("div");
