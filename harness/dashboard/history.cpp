@@ -144,7 +144,7 @@ void History::add_creeping(const std::string& id, const std::string& column, std
     const bool more = creep->ratio.value > 1;
     const Change change =
         is_time(column) ? (more ? Change::slower : Change::faster) : (more ? Change::worse : Change::better);
-    out->push_back({reports[creep->index], id, column, change, creep->ratio, reports.front()});
+    out->push_back({reports[creep->from], id, column, change, creep->ratio, reports[creep->to]});
   }
 }
 
@@ -220,8 +220,8 @@ Json History::json(std::vector<std::string>* notes) const {
                               {"ratio", rounded(step.ratio.value, kDigits)},
                               {"lo", rounded(step.ratio.ci95.lo, kDigits)},
                               {"hi", rounded(step.ratio.ci95.hi, kDigits)},
-                              {"since", step.since ? Json(*step.since) : Json(nullptr)},
-                              {"persistent", step.since || persists(step)}});
+                              {"until", step.until ? Json(*step.until) : Json(nullptr)},
+                              {"persistent", step.until || persists(step)}});
   }
   return out;
 }

@@ -37,7 +37,7 @@ class History {
     std::string case_id, column;
     Change change = Change::same;
     Ratio ratio;
-    std::optional<size_t> since = {};  // of what crept: the report that it is held against
+    std::optional<size_t> until = {};  // of what crept, from `report` on
   };
 
   void add_case(const CaseResult& c, const Report& report);

@@ -82,11 +82,11 @@ TEST(History, WhatCreepsIsMarkedThoughNoStepOfItIs) {
   EXPECT_EQ(creep.at("series"), 1);
   EXPECT_EQ(creep.at("column"), "method");
   EXPECT_EQ(creep.at("change"), "slower");
-  EXPECT_EQ(creep.at("since"), 0);
   EXPECT_EQ(creep.at("persistent"), true);
-  // The ends' middles are 33 reports apart; 1 % of noise is left behind after 7.
+  // The ends' middles are the reports 7 and 40.
   EXPECT_NEAR(creep.at("ratio").get<double>(), 1 + 0.07 * 33 / 47, 0.006);
-  EXPECT_NEAR(creep.at("report").get<double>(), 7, 4);
+  EXPECT_NEAR(creep.at("report").get<double>(), 7 + 33 / 4.0, 4);
+  EXPECT_NEAR(creep.at("until").get<double>(), 7 + 33 * 3 / 4.0, 4);
 }
 
 TEST(History, NoiseDoesNotCreepNorDoesAMachineUnderTheSameKernels) {
@@ -101,7 +101,7 @@ TEST(History, ACreepingStretchEndsAtAStep) {
   // Either side is too short for a verdict: the step is all that is told.
   ASSERT_EQ(history.at("changes").size(), 1) << history.at("changes").dump();
   EXPECT_EQ(history.at("changes")[0].at("report"), 24);
-  EXPECT_TRUE(history.at("changes")[0].at("since").is_null());
+  EXPECT_TRUE(history.at("changes")[0].at("until").is_null());
 }
 
 TEST(History, ErrorsStepToo) {

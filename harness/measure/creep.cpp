@@ -1,6 +1,7 @@
 #include "measure/creep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace vsglbench {
@@ -10,6 +11,16 @@ std::vector<double> sorted(std::span<const double> figures) {
   std::vector<double> out(figures.begin(), figures.end());
   std::ranges::sort(out);
   return out;
+}
+
+// Back from the end, as long as the level lies beyond a share of the change.
+size_t stays_beyond(std::span<const double> figures, double share) {
+  const auto level = [&](size_t begin) { return std::log(median(figures.subspan(begin, kCreepEnd))); };
+  const size_t end = figures.size() - kCreepEnd;
+  const double base = level(0), change = level(end) - base;
+  size_t begin = end;
+  while (begin > 0 && (level(begin - 1) - base) / change > share) --begin;
+  return begin + kCreepEnd / 2;
 }
 
 }  // namespace
@@ -25,15 +36,7 @@ std::optional<Creep> creep_of(std::span<const double> figures, double noise) {
   const bool up = b[1] > beyond * a[kCreepEnd - 2], down = b[kCreepEnd - 2] * beyond < a[1];
   if (!up && !down) return std::nullopt;
 
-  // Back from the end, as long as the level stays beyond the noise.
-  const double base = median(first);
-  size_t index = figures.size() - kCreepEnd;
-  while (index > 0) {
-    const double ratio = median(figures.subspan(index - 1, kCreepEnd)) / base;
-    if (up ? ratio <= beyond : ratio * beyond >= 1) break;
-    --index;
-  }
-  return Creep{index, median_ratio(last, first)};
+  return Creep{stays_beyond(figures, 0.25), stays_beyond(figures, 0.75), median_ratio(last, first)};
 }
 
 }  // namespace vsglbench

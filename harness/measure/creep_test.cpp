@@ -34,8 +34,8 @@ TEST(Creep, ADriftFarBelowTheNoiseOfEachStepIsFoundBothWays) {
     EXPECT_NEAR(creep->ratio.value, std::pow(end, 85.0 / 99), 0.004) << end;
     EXPECT_LE(creep->ratio.ci95.lo, creep->ratio.value);
     EXPECT_GE(creep->ratio.ci95.hi, creep->ratio.value);
-    // The level of fifteen is 1 % beyond that of the first fifteen 17 reports later.
-    EXPECT_NEAR(double(creep->index), 17, 6) << end;
+    EXPECT_NEAR(double(creep->from), 7 + 85 / 4.0, 8) << end;
+    EXPECT_NEAR(double(creep->to), 7 + 85 * 3 / 4.0, 8) << end;
   }
 }
 
@@ -44,7 +44,8 @@ TEST(Creep, ALateDriftAfterALongCalmIsFound) {
   const auto creep = creep_of(figures, 0.01);
   ASSERT_TRUE(creep);
   EXPECT_NEAR(creep->ratio.value, 1.05, 0.006);
-  EXPECT_NEAR(double(creep->index), 270, 6);
+  EXPECT_NEAR(double(creep->from), 275, 5);
+  EXPECT_NEAR(double(creep->to), 285, 5);
 }
 
 TEST(Creep, NoiseAloneIsNone) {

@@ -183,7 +183,7 @@ export interface Change {
   ratio: number; // now over before
   lo: number;
   hi: number;
-  since: number | null; // of what crept from there, with no step that shows it: the report that it is held against
+  until: number | null; // of what crept, with no step that shows it: from a quarter of the change, in `report`, to three quarters
   persistent: boolean; // every report since is as much beyond the noise, on the same side; so is what crept
 }
 

@@ -93,6 +93,16 @@ test("a refusal says why, and no figures follow", async () => {
   await assertSound(p);
 });
 
+test("narrow, a row's figures and change are seen whole, and the axis stands over its marks", async () => {
+  const p = await page({ width: 400 });
+  const inside = await p.locator(".ratios").evaluate((e) => e.scrollWidth <= e.clientWidth);
+  assert.ok(inside, "the rows are wider than their frame");
+  const middle = (selector) => p.locator(selector).first().evaluate((e) => { const b = e.getBoundingClientRect(); return (b.left + b.right) / 2; });
+  const zero = await p.locator(".ratios thead text", { hasText: /^0 %$/ }).evaluate((e) => { const b = e.getBoundingClientRect(); return (b.left + b.right) / 2; });
+  const rule = await middle(".ratios tbody .rule");
+  assert.ok(Math.abs(zero - rule) < 1.5, `${zero}: ${rule}`);
+});
+
 test("dark and narrow are sound", async () => {
   await assertSound(await page({ dark: true, width: 400 }));
 });

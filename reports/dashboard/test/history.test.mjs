@@ -54,22 +54,22 @@ test("of 300 reports the two steps and what crept are found, with their report a
   const of = (id) => rows.filter((r) => r.case === id);
   for (const s of known) {
     const [step] = of(s.case);
-    assert.deepEqual([of(s.case).length, Number(step.report), step["crept since"]], [1, s.report + 1, ""]);
+    assert.deepEqual([of(s.case).length, Number(step.report), step["crept until"]], [1, s.report + 1, ""]);
     assert.ok(Math.abs(Number(step.by) / s.ratio - 1) < 0.01, `${step.by}: ${s.ratio}`);
   }
   const [creep] = of(crept.case);
-  assert.deepEqual([of(crept.case).length, creep.change, creep["crept since"]], [1, "slower", "1"]);
+  assert.deepEqual([of(crept.case).length, creep.change], [1, "slower"]);
   assert.ok(Math.abs(Number(creep.by) / crept.ratio - 1) < 0.005, creep.by);
-  // Noise of 0.5 % is left behind 12 reports after it began.
-  assert.ok(Math.abs(Number(creep.report) - 1 - 65) < 15, creep.report);
+  // A quarter and three quarters of the way.
+  for (const [share, report] of [[0.25, creep.report], [0.75, creep["crept until"]]]) assert.ok(Math.abs(Number(report) - 1 - (crept.from + share * (crept.to - crept.from))) < 10, report);
   assert.equal(rows.length, 3, JSON.stringify(rows.map((r) => [r.case, r.report, r.by])));
 });
 
-test("what crept is told with the report it crept from, and a dashed line leads from there", async () => {
-  const p = await page(madeHistory({ reports: 60, series: 3, scenes: ["cornell"], crept: [[1, 10, 40, 1.2]], steps: [[0, 30, 1.1]] }), { hash: "&hi.s=1&hi.r=40&hi.b=absolute" });
-  assert.match(await p.locator("#hi-opened .opened-figures").innerText(), /crept: ▲ slower \+20 % \[\+19 % … \+21 %\], since report 11/);
+test("what crept is told with the reports between which it did, and a dashed line joins them", async () => {
+  const p = await page(madeHistory({ reports: 60, series: 3, scenes: ["cornell"], crept: [[1, 10, 40, 1.2]], steps: [[0, 30, 1.1]] }), { hash: "&hi.s=1&hi.r=10&hi.b=absolute" });
+  assert.match(await p.locator("#hi-opened .opened-figures").innerText(), /crept: ▲ slower \+20 % \[\+19 % … \+21 %\], from report 11 to 41/);
   const rows = p.locator("section.table").first().locator("tbody tr");
-  assert.deepEqual((await rows.locator("td:nth-child(9)").allTextContents()), ["11", "–"]);
+  assert.deepEqual((await rows.locator("td:nth-child(9)").allTextContents()), ["–", "41"]);
   const chart = p.locator(".history-panels .history-frame").first();
   assert.equal(await chart.locator("line.crept").count(), 1);
   const place = async (selector) => chart.locator(selector).evaluate((e) => { const r = e.getBoundingClientRect(); return [r.x, r.y, r.right, r.bottom]; });

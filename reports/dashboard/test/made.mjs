@@ -39,8 +39,8 @@ export function madeHistory({ reports, series, steps = [], crept = [], methods =
       id: `${scenes[i % scenes.length]}/${methods[i % methods.length]}/N=${i}`, scene: scenes[i % scenes.length], method: methods[i % methods.length],
       label: `${methods[i % methods.length]} N=${i}`, values: { method: estimates((r) => figure(i, r)), smape: estimates(() => i + 5) }, noise: { method: 0.02 } })),
     changes: [
-      ...steps.map(([s, report, ratio, persistent = true]) => ({ report, series: s, ratio, since: null, persistent })),
-      ...crept.map(([s, since, report, ratio]) => ({ report, series: s, ratio, since, persistent: true })),
+      ...steps.map(([s, report, ratio, persistent = true]) => ({ report, series: s, ratio, until: null, persistent })),
+      ...crept.map(([s, report, until, ratio]) => ({ report, series: s, ratio, until, persistent: true })),
     ].map((c) => ({ ...c, column: "method", change: c.ratio > 1 ? "slower" : "faster", lo: c.ratio * 0.99, hi: c.ratio * 1.01 })),
   };
 }

@@ -1,11 +1,12 @@
 // Two reports beside each other: what became faster, slower, better, worse.
+import { allMethods } from "../colours";
 import type { Comparison } from "../data";
 import { checkbox, choice, h } from "../dom";
 import { figure } from "../format";
 import { table, type Column } from "../table";
 import type { Page, View } from "../view";
 import { changeGlyph, changeText, changeWithInterval, kindOf, percentChange } from "./changes";
-import { countsOf, exitText, hiddenChanges, methodsOf, shownRows, type Row } from "./compare_model";
+import { countsOf, exitText, hiddenChanges, shownRows, type Row } from "./compare_model";
 import { filterBox } from "./filter_box";
 import { axisHead, axisRound, intervalMark, type Axis } from "./interval_mark";
 import "./compare.css";
@@ -90,7 +91,7 @@ export const compareView: View = {
   id: "compare",
   title: "Compare",
   filters: ["methods"],
-  methods: ({ digest }) => methodsOf(digest.comparison?.rows ?? []),
+  methods: ({ digest }) => allMethods(digest).filter((m) => digest.comparison?.rows.some((r) => r.method === m)),
   has: (page) => page.digest.comparison !== null,
   draw(root, page) {
     const c = page.digest.comparison!, body = h("div");
@@ -98,7 +99,7 @@ export const compareView: View = {
     if (c.rows.length === 0) return;
     const fill = () => {
       const rows = shownRows(c.rows, page.state);
-      const width = Math.max(120, Math.min(420, root.clientWidth - 250));
+      const width = Math.max(90, Math.min(420, root.clientWidth - 290));
       if (rows.length === 0) body.replaceChildren(h("p", {}, "No row is left by these filters: what is the same is hidden until it is asked for."));
       else body.replaceChildren(chart(rows, width), rowsTable(page, rows));
     };

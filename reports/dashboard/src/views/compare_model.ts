@@ -22,11 +22,6 @@ export function countsOf(rows: Row[]): Map<string, number> {
   return out;
 }
 
-// In the order of the rows.
-export function methodsOf(rows: Row[]): string[] {
-  return [...new Set(rows.map((r) => r.method).filter((m) => m !== ""))];
-}
-
 // What is the same is hidden until it is asked for.
 export function hiddenChanges(state: State): Set<string> {
   return new Set(state.get("co.hide", "same").split("."));
