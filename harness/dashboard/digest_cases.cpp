@@ -1,5 +1,6 @@
 // Cases as columns.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "answer/point.h"
@@ -11,7 +12,8 @@
 namespace vsglbench {
 namespace {
 
-constexpr int kIntervalDigits = 5;  // of passes: there are many
+constexpr double kIntervalSteps =
+    1e4;  // to a median: ends of the intervals of passes, of which there are many
 
 // Names of cases that are told apart from their neighbours alone: of one scene and group.
 std::vector<std::string> labels(const Report& report, const std::vector<int>& groups) {
@@ -104,20 +106,27 @@ Json extra_columns(const Report& report) {
   return {{"lights", lights}, {"empty", empty}, {"memory_bytes", memory}, {"flux", flux}, {"bias", bias}};
 }
 
+// How far an end of an interval is from its median.
+int64_t interval_steps(double end, double median) {
+  return median > 0 ? std::llround(kIntervalSteps * std::abs(end / median - 1)) : 0;
+}
+
 Json pass_rows(const Report& report) {
   std::map<std::string, size_t> place;
   for (const std::string& name : pass_names(report)) place.emplace(name, place.size());
   Json out = Json::array();
   for (const CaseResult& c : report.cases) {
-    Json pass = Json::array(), ms = Json::array(), lo = Json::array(), hi = Json::array();
+    Json pass = Json::array(), ms = Json::array(), below = Json::array(), above = Json::array();
     for (const PassTiming& p : c.passes) {
       pass.push_back(place.at(p.pass.name()));
       ms.push_back(rounded(p.ms.median));
-      lo.push_back(rounded(p.ms.ci95.lo, kIntervalDigits));
-      hi.push_back(rounded(p.ms.ci95.hi, kIntervalDigits));
+      below.push_back(interval_steps(p.ms.ci95.lo, p.ms.median));
+      above.push_back(interval_steps(p.ms.ci95.hi, p.ms.median));
     }
-    out.push_back(
-        {{"pass", std::move(pass)}, {"ms", std::move(ms)}, {"lo", std::move(lo)}, {"hi", std::move(hi)}});
+    out.push_back({{"pass", std::move(pass)},
+                   {"ms", std::move(ms)},
+                   {"below", std::move(below)},
+                   {"above", std::move(above)}});
   }
   return out;
 }

@@ -98,8 +98,9 @@ TEST_F(FrontDigest, PassesHaveTheirIntervals) {
   for (size_t i = 0; i < rows.size(); ++i) {
     for (size_t k = 0; k < rows[i].at("pass").size(); ++k) {
       const Json& ci = file.at("cases")[i].at("passes")[k].at("ci95_ms");
-      EXPECT_NEAR(rows[i].at("lo")[k].get<double>() / ci[0].get<double>(), 1, 1e-4);
-      EXPECT_NEAR(rows[i].at("hi")[k].get<double>() / ci[1].get<double>(), 1, 1e-4);
+      const double ms = file.at("cases")[i].at("passes")[k].at("median_ms").get<double>();
+      EXPECT_NEAR(1 - rows[i].at("below")[k].get<double>() / 1e4, ci[0].get<double>() / ms, 0.51e-4);
+      EXPECT_NEAR(1 + rows[i].at("above")[k].get<double>() / 1e4, ci[1].get<double>() / ms, 0.51e-4);
     }
   }
 }

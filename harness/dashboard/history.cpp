@@ -1,9 +1,12 @@
 #include "dashboard/history.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "dashboard/columns.h"
 #include "dashboard/digest.h"
+#include "measure/creep.h"
 #include "report/case_names.h"
 #include "report/noise.h"
 
@@ -74,11 +77,14 @@ void History::add(const Report& report, const std::string& file) {
   const CaseNames names(cases);
   for (const CaseResult* c : cases) series_.at(c->id).label = names.label(*c);
   std::string refusal;
+  bool other_kernels = true;
   if (last_) {
     const Comparison comparison = compare_reports(*last_, report, {.cases_alone = true});
     refusal = comparison.refusal;
+    other_kernels = !comparison.byte_equal;
     add_changes(comparison);
   }
+  other_kernels_.push_back(other_kernels);
   reports_.push_back({{"file", file},
                       {"name", config_name(report)},
                       {"created", report.created},
@@ -89,6 +95,11 @@ void History::add(const Report& report, const std::string& file) {
   last_ = report;
 }
 
+double History::noise_of_series(const Series& s, const std::string& column) const {
+  const auto noise = s.noise.find(column);
+  return std::max(kSmallestEffect, noise == s.noise.end() ? 0 : noise->second);
+}
+
 // Whether every report since, and at least one, is as far from what was before as noise does not reach.
 bool History::persists(const Step& step) const {
   const Series& s = series_.at(step.case_id);
@@ -96,14 +107,56 @@ bool History::persists(const Step& step) const {
   const auto before = figures.lower_bound(step.report);
   if (before == figures.begin()) return false;
   const double base = std::prev(before)->second.value;
-  const auto noise = s.noise.find(step.column);
-  const double margin = 1 + std::max(kSmallestEffect, noise == s.noise.end() ? 0 : noise->second);
+  const double margin = 1 + noise_of_series(s, step.column);
   size_t later = 0;
   for (auto it = figures.upper_bound(step.report); it != figures.end(); ++it, ++later) {
     const double ratio = base > 0 ? it->second.value / base : 1;
     if (step.ratio.value > 1 ? ratio < margin : ratio > 1 / margin) return false;
   }
   return later > 0;
+}
+
+// Where figures drift too slowly for two reports beside each other to show it: stretch by stretch, from one
+// step that lasted, or refusal, to the next.
+void History::add_creeping(const std::string& id, const std::string& column, std::vector<Step>* out) const {
+  const Series& s = series_.at(id);
+  const auto known = s.columns.find(column);
+  if (known == s.columns.end()) return;
+  std::set<size_t> starts = {reports_.size()};
+  for (size_t r = 0; r < reports_.size(); ++r) {
+    if (reports_[r].at("refusal") != "") starts.insert(r);
+  }
+  for (const Step& step : steps_) {
+    if (step.case_id == id && step.column == column && persists(step)) starts.insert(step.report);
+  }
+  auto figure = known->second.of.begin();
+  for (const size_t end : starts) {
+    std::vector<size_t> reports;
+    std::vector<double> values;
+    bool same_kernels = true;  // in all but the first: what differs in time is the machine then
+    for (; figure != known->second.of.end() && figure->first < end; ++figure) {
+      if (!reports.empty() && other_kernels_[figure->first]) same_kernels = false;
+      reports.push_back(figure->first);
+      values.push_back(figure->second.value);
+    }
+    const auto creep = creep_of(values, noise_of_series(s, column));
+    if (!creep || (same_kernels && is_time(column))) continue;
+    const bool more = creep->ratio.value > 1;
+    const Change change =
+        is_time(column) ? (more ? Change::slower : Change::faster) : (more ? Change::worse : Change::better);
+    out->push_back({reports[creep->from], id, column, change, creep->ratio, reports[creep->to]});
+  }
+}
+
+std::vector<History::Step> History::creeping(const std::vector<std::string>& columns) const {
+  std::vector<Step> out;
+  for (const std::string& id : ids_) {
+    for (const std::string& column : columns) {
+      // Those that steps are looked for in.
+      if (column == "method" || !is_time(column)) add_creeping(id, column, &out);
+    }
+  }
+  return out;
 }
 
 Json History::json(std::vector<std::string>* notes) const {
@@ -156,7 +209,9 @@ Json History::json(std::vector<std::string>* notes) const {
                              {"values", std::move(values)},
                              {"noise", std::move(noise)}});
   }
-  for (const Step& step : steps_) {
+  std::vector<Step> changes = steps_;
+  std::ranges::copy(creeping(columns), std::back_inserter(changes));
+  for (const Step& step : changes) {
     if (std::ranges::count(columns, step.column) == 0) continue;
     out["changes"].push_back({{"report", step.report},
                               {"series", place.at(step.case_id)},
@@ -165,7 +220,8 @@ Json History::json(std::vector<std::string>* notes) const {
                               {"ratio", rounded(step.ratio.value, kDigits)},
                               {"lo", rounded(step.ratio.ci95.lo, kDigits)},
                               {"hi", rounded(step.ratio.ci95.hi, kDigits)},
-                              {"persistent", persists(step)}});
+                              {"until", step.until ? Json(*step.until) : Json(nullptr)},
+                              {"persistent", step.until || persists(step)}});
   }
   return out;
 }

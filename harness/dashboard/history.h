@@ -37,14 +37,19 @@ class History {
     std::string case_id, column;
     Change change = Change::same;
     Ratio ratio;
+    std::optional<size_t> until = {};  // of what crept, from `report` on
   };
 
   void add_case(const CaseResult& c, const Report& report);
   void add_changes(const Comparison& comparison);
   bool persists(const Step& step) const;
+  double noise_of_series(const Series& s, const std::string& column) const;
+  std::vector<Step> creeping(const std::vector<std::string>& columns) const;
+  void add_creeping(const std::string& id, const std::string& column, std::vector<Step>* out) const;
 
   std::vector<Json> reports_;
-  std::vector<std::string> ids_;  // of series, as they came
+  std::vector<bool> other_kernels_;  // than the report before, or other in what the comparison refuses
+  std::vector<std::string> ids_;     // of series, as they came
   std::map<std::string, Series> series_;
   std::vector<Step> steps_;
   std::optional<Report> last_;

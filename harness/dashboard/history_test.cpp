@@ -65,6 +65,45 @@ TEST(History, AStepThatGoesAwayIsNotPersistentAndTheNewestHasNotStoodYet) {
   EXPECT_EQ(change_of(history, 5, 1)->at("persistent"), false);
 }
 
+// 48 reports in which mfis becomes slower by `drift` in all, 0.15 % a report at most.
+std::vector<Report> drifting(double drift, bool same_kernels = false) {
+  std::vector<Report> reports;
+  for (uint64_t i = 0; i < 48; ++i) {
+    reports.push_back(made(i, 10, 20 * (1 + drift * double(i) / 47)));
+    if (same_kernels) reports.back().kernels = "same";
+  }
+  return reports;
+}
+
+TEST(History, WhatCreepsIsMarkedThoughNoStepOfItIs) {
+  const Json history = history_of(drifting(0.07));
+  ASSERT_EQ(history.at("changes").size(), 1) << history.at("changes").dump();
+  const Json& creep = history.at("changes")[0];
+  EXPECT_EQ(creep.at("series"), 1);
+  EXPECT_EQ(creep.at("column"), "method");
+  EXPECT_EQ(creep.at("change"), "slower");
+  EXPECT_EQ(creep.at("persistent"), true);
+  // The ends' middles are the reports 7 and 40.
+  EXPECT_NEAR(creep.at("ratio").get<double>(), 1 + 0.07 * 33 / 47, 0.006);
+  EXPECT_NEAR(creep.at("report").get<double>(), 7 + 33 / 4.0, 4);
+  EXPECT_NEAR(creep.at("until").get<double>(), 7 + 33 * 3 / 4.0, 4);
+}
+
+TEST(History, NoiseDoesNotCreepNorDoesAMachineUnderTheSameKernels) {
+  EXPECT_TRUE(history_of(drifting(0)).at("changes").empty());
+  EXPECT_TRUE(history_of(drifting(0.07, true)).at("changes").empty());
+}
+
+TEST(History, ACreepingStretchEndsAtAStep) {
+  std::vector<Report> reports = drifting(0.07);
+  for (uint64_t i = 24; i < 48; ++i) reports[i] = made(i, 10, 30 * (1 + 0.07 * double(i) / 47));
+  const Json history = history_of(reports);
+  // Either side is too short for a verdict: the step is all that is told.
+  ASSERT_EQ(history.at("changes").size(), 1) << history.at("changes").dump();
+  EXPECT_EQ(history.at("changes")[0].at("report"), 24);
+  EXPECT_TRUE(history.at("changes")[0].at("until").is_null());
+}
+
 TEST(History, ErrorsStepToo) {
   std::vector<Report> reports;
   for (uint64_t i = 0; i < 4; ++i) reports.push_back(made(i, 10, 20, i < 2 ? 10 : 9));

@@ -56,8 +56,13 @@ Json median_of(const Report& report, const std::string& id, const std::string& t
 Json comparison_json(const Report& base, const Report& now) {
   const Comparison c = compare_reports(base, now);
   Json rows = Json::array();
+  const auto method_of = [&](const std::string& id) {
+    const CaseResult* of = find_case(now, id);
+    return of == nullptr ? std::string() : of->method;
+  };
   const auto add_time = [&](const TimeChange& t, const std::string& what) {
     rows.push_back({{"case", t.case_id},
+                    {"method", t.case_id.empty() ? t.method : method_of(t.case_id)},
                     {"what", what},
                     {"base", median_of(base, t.case_id, t.time)},
                     {"now", median_of(now, t.case_id, t.time)},
@@ -72,6 +77,7 @@ Json comparison_json(const Report& base, const Report& now) {
   for (const TimeChange& t : c.times) add_time(t, t.time);
   for (const ErrorChange& e : c.errors) {
     rows.push_back({{"case", e.case_id},
+                    {"method", method_of(e.case_id)},
                     {"what", e.metric},
                     {"base", rounded(e.base)},
                     {"now", rounded(e.now)},

@@ -44,6 +44,14 @@ export interface Scene {
   priced: { case: string; ratio: number; ratio_ci95: [number, number] } | null; // frame with all effects over the case's
 }
 
+// Of a case, an entry a pass. Large pages consist of these: the ends of an interval are whole ten-thousandths of the median.
+export interface Passes {
+  pass: number[]; // index in Report.passes
+  ms: number[]; // the median
+  below: number[]; // its 95 % interval reaches so far below
+  above: number[];
+}
+
 // One entry a case in every column.
 export interface Cases {
   id: string[];
@@ -57,7 +65,7 @@ export interface Cases {
   times: Record<string, Estimates>; // by name of Report.times; medians over frames
   errors: Record<string, Estimates & { heavy: (0 | 1)[]; seeds: (number[] | null)[] }>; // by metric
   extra: Record<string, (number | null)[]>; // by name of Report.extra
-  passes: { pass: number[]; ms: number[]; lo: number[]; hi: number[] }[]; // of each case: index in Report.passes, its median and that one's 95 % interval
+  passes: Passes[]; // of each case
 }
 
 export interface BudgetPart {
@@ -175,7 +183,8 @@ export interface Change {
   ratio: number; // now over before
   lo: number;
   hi: number;
-  persistent: boolean; // every report since is as much beyond the noise, on the same side
+  until: number | null; // of what crept, with no step that shows it: from a quarter of the change, in `report`, to three quarters
+  persistent: boolean; // every report since is as much beyond the noise, on the same side; so is what crept
 }
 
 export interface History {
@@ -191,7 +200,8 @@ export interface Comparison {
   refusal: string;
   exit_code: number;
   summary: string; // the text of `vsglbench compare`
-  rows: { case: string; what: string; base: number | null; now: number | null; ratio: number; lo: number; hi: number; noise: number | null; change: string }[];
+  // method: "", where it is over all of them
+  rows: { case: string; method: string; what: string; base: number | null; now: number | null; ratio: number; lo: number; hi: number; noise: number | null; change: string }[];
 }
 
 export interface Stability {
@@ -220,7 +230,16 @@ export function bytesOf(element: string): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
+// Handed over and taken back in the page itself: a Blob's or a Response's stream would go by way of another process.
 export async function readDigest(): Promise<Digest> {
-  const inflated = new Blob([bytesOf("data")]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(inflated).json();
+  const inflate = new DecompressionStream("deflate"), decoder = new TextDecoder(), input = inflate.writable.getWriter();
+  const written = input.write(bytesOf("data")).then(() => input.close());
+  let text = "";
+  for (const output = inflate.readable.getReader(); ; ) {
+    const { value, done } = await output.read();
+    if (done) break;
+    text += decoder.decode(value, { stream: true });
+  }
+  await written;
+  return JSON.parse(text);
 }

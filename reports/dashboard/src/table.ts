@@ -6,6 +6,7 @@ export interface Column<Row> {
   key: string; // in the state and the CSV
   title: string;
   unit?: string; // of `value`; empty or absent: none
+  scaled?: boolean; // the text has a unit of its own, "1.05 MB": the head has none
   hint?: string; // what the column is, in words
   value(row: Row): number | string | null | undefined; // sorts, and stands in the CSV
   text?(row: Row): string; // shown; by default the value
@@ -77,7 +78,7 @@ export function table<Row>(o: TableOptions<Row>): HTMLElement {
   const more = h("p", { class: "more" });
   const count = h("span", { class: "count", role: "status" });
   const heads = o.columns.map((c) => {
-    const button = h("button", { type: "button", title: c.hint, click: () => sortBy(c.key) }, c.title + (c.unit?.trim() ? `, ${c.unit.trim()}` : ""));
+    const button = h("button", { type: "button", title: c.hint, click: () => sortBy(c.key) }, c.title + (c.unit?.trim() && !c.scaled ? `, ${c.unit.trim()}` : ""));
     return h("th", { scope: "col", class: numeric.has(c.key) ? "figure" : false }, button);
   });
 

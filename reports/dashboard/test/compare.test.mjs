@@ -1,13 +1,13 @@
 // Two reports compared, with rows that are known.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { close, open } from "./harness.mjs";
-import { made } from "./made.mjs";
+import { close, open, report } from "./harness.mjs";
+import { digestOf, made } from "./made.mjs";
 import { assertSound } from "./sound.mjs";
 
 after(close);
 
-const row = (name, what, base, ratio, half, noise, change) => ({ case: name, what, base, now: base === null ? null : base * ratio, ratio, lo: ratio * (1 - half), hi: ratio * (1 + half), noise, change });
+const row = (name, what, base, ratio, half, noise, change) => ({ case: name, method: /\/(.*)| of (.*)|$/.exec(name || what).slice(1).join(""), what, base, now: base === null ? null : base * ratio, ratio, lo: ratio * (1 - half), hi: ratio * (1 + half), noise, change });
 const rows = [
   row("cornell/mfis", "method", 10, 1.2, 0.02, 0.03, "slower"), row("cornell/fis", "method", 20, 0.8, 0.02, 0.03, "faster"), row("cornell/vpl", "method", 30, 1.001, 0.01, 0.03, "same"),
   row("cornell/vsl", "method", 40, 1.05, 0.08, 0.03, "ambiguous"), row("cornell/mfis", "smape", 5, 1.4, 0.001, null, "worse"), row("", "pass shade", null, 1.04, 0.01, 0.02, "slower"),
@@ -60,11 +60,47 @@ test("boxes, order and words choose rows, and the URL holds them", async () => {
   await p.locator(".ratios h3, h3", { hasText: "1 rows" }).waitFor();
 });
 
+test("boxes of methods leave out their cases and passes, not what is over all of them", async () => {
+  const p = await page({}, { rows: [...rows, row("", "pass shade of mfis", null, 1.08, 0.01, 0.02, "slower")] });
+  const names = async () => (await chart(p)).map((r) => r[2]).sort();
+  const all = await names();
+  assert.ok(all.includes("pass shade of mfis"));
+  await p.getByLabel("mfis", { exact: true }).uncheck();
+  assert.deepEqual(await names(), all.filter((n) => !n.includes("mfis")));
+  assert.ok((await names()).includes("pass shade"));
+  assert.equal(await p.locator("section.table tbody tr").count(), all.length - 3);
+  await p.getByRole("button", { name: "Only fis", exact: true }).click();
+  assert.deepEqual(await names(), ["cornell/fis · method", "pass shade"]);
+  await p.reload();
+  await p.waitForSelector(".ratios");
+  assert.deepEqual(await names(), ["cornell/fis · method", "pass shade"]);
+});
+
+test("of two real reports every row knows its method", async () => {
+  const now = report("pair");
+  const { comparison } = digestOf("pair");
+  assert.ok(comparison.rows.length > 20);
+  for (const r of comparison.rows) {
+    const wanted = r.case === "" ? (/ of (.*)$/.exec(r.what)?.[1] ?? "") : now.cases.find((c) => c.id === r.case).method;
+    assert.equal(r.method, wanted, `${r.case} ${r.what}`);
+  }
+});
+
 test("a refusal says why, and no figures follow", async () => {
   const p = await page({}, { refusal: "the devices differ: 'a' and 'b'", exit_code: 5, rows: [], summary: "not compared" });
   assert.match(await p.locator(".verdict").innerText(), /exit code 5: refused\s+Not compared: the devices differ: 'a' and 'b'/);
   assert.equal(await p.locator(".ratios").count(), 0);
   await assertSound(p);
+});
+
+test("narrow, a row's figures and change are seen whole, and the axis stands over its marks", async () => {
+  const p = await page({ width: 400 });
+  const inside = await p.locator(".ratios").evaluate((e) => e.scrollWidth <= e.clientWidth);
+  assert.ok(inside, "the rows are wider than their frame");
+  const middle = (selector) => p.locator(selector).first().evaluate((e) => { const b = e.getBoundingClientRect(); return (b.left + b.right) / 2; });
+  const zero = await p.locator(".ratios thead text", { hasText: /^0 %$/ }).evaluate((e) => { const b = e.getBoundingClientRect(); return (b.left + b.right) / 2; });
+  const rule = await middle(".ratios tbody .rule");
+  assert.ok(Math.abs(zero - rule) < 1.5, `${zero}: ${rule}`);
 });
 
 test("dark and narrow are sound", async () => {

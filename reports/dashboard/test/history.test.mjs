@@ -1,7 +1,9 @@
 // The history, with figures that are known: series i has 10 (i + 1) ms, but for the steps.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, test } from "node:test";
-import { close, open } from "./harness.mjs";
+import { close, open, saved } from "./harness.mjs";
 import { made, madeHistory } from "./made.mjs";
 import { assertSound } from "./sound.mjs";
 
@@ -41,6 +43,39 @@ test("the persistent changes lead to their series, with its figures", async () =
   assert.match(text, /report 21 of 50: 0015001500, 2026-01-21/);
   assert.match(text, /A\/A noise ± 2 %/);
   assert.match(p.url(), /hi\.s=2&hi\.r=20/);
+  await assertSound(p);
+});
+
+// The page of 300 made reports, by the programme's own verdicts.
+test("of 300 reports the two steps and what crept are found, with their report and size", async () => {
+  const { steps: known, crept } = JSON.parse(readFileSync(join(process.env.VSGLBENCH_DASHBOARD_PAGES, "history/steps.json"), "utf8"));
+  const p = await open("history", { hash: "v=history" });
+  const rows = (await saved(p, "Persistent changes")).filter((r) => r.of === "method time");
+  const of = (id) => rows.filter((r) => r.case === id);
+  for (const s of known) {
+    const [step] = of(s.case);
+    assert.deepEqual([of(s.case).length, Number(step.report), step["crept until"]], [1, s.report + 1, ""]);
+    assert.ok(Math.abs(Number(step.by) / s.ratio - 1) < 0.01, `${step.by}: ${s.ratio}`);
+  }
+  const [creep] = of(crept.case);
+  assert.deepEqual([of(crept.case).length, creep.change], [1, "slower"]);
+  assert.ok(Math.abs(Number(creep.by) / crept.ratio - 1) < 0.005, creep.by);
+  // A quarter and three quarters of the way.
+  for (const [share, report] of [[0.25, creep.report], [0.75, creep["crept until"]]]) assert.ok(Math.abs(Number(report) - 1 - (crept.from + share * (crept.to - crept.from))) < 10, report);
+  assert.equal(rows.length, 3, JSON.stringify(rows.map((r) => [r.case, r.report, r.by])));
+});
+
+test("what crept is told with the reports between which it did, and a dashed line joins them", async () => {
+  const p = await page(madeHistory({ reports: 60, series: 3, scenes: ["cornell"], crept: [[1, 10, 40, 1.2]], steps: [[0, 30, 1.1]] }), { hash: "&hi.s=1&hi.r=10&hi.b=absolute" });
+  assert.match(await p.locator("#hi-opened .opened-figures").innerText(), /crept: ▲ slower \+20 % \[\+19 % … \+21 %\], from report 11 to 41/);
+  const rows = p.locator("section.table").first().locator("tbody tr");
+  assert.deepEqual((await rows.locator("td:nth-child(9)").allTextContents()), ["–", "41"]);
+  const chart = p.locator(".history-panels .history-frame").first();
+  assert.equal(await chart.locator("line.crept").count(), 1);
+  const place = async (selector) => chart.locator(selector).evaluate((e) => { const r = e.getBoundingClientRect(); return [r.x, r.y, r.right, r.bottom]; });
+  const [x0, , x1] = await place("line.crept"), box = await chart.boundingBox();
+  const at = (report) => box.x + 64 + (report / 59) * (box.width - 64 - 20);
+  assert.ok(Math.abs(x0 - at(10)) < 2 && Math.abs(x1 - at(40)) < 2, `${x0} to ${x1}: ${at(10)} to ${at(40)}`);
   await assertSound(p);
 });
 

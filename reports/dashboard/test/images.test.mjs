@@ -377,6 +377,35 @@ test("without WebGL2 the same picture is drawn, and the page says so", async () 
   clean(page);
 });
 
+test("on paper the stage is white beside the pictures, with and without WebGL2", async () => {
+  for (const without of [false, true]) {
+    const page = await look("", { dark: true });
+    if (without) {
+      await page.context().addInitScript(() => {
+        const own = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+          return kind === "webgl2" ? null : own.call(this, kind, ...rest);
+        };
+      });
+      await page.reload();
+      await page.waitForSelector("#im-body[data-ready]");
+    }
+    await settle(page);
+    const corner = async () => {
+      const screen = await looked(page);
+      return screen(20, screen.height / 2).join();
+    };
+    assert.equal(await corner(), "22,23,27");
+    await page.emulateMedia({ media: "print" });
+    await settle(page);
+    assert.equal(await corner(), "255,255,255");
+    const place = raster[7]; // left of the divider
+    const [left, top] = await placeOf(page, ...place);
+    (await looked(page))(left, top).forEach((v, c) => assert.ok(Math.abs(v - shown(r.rows[place[1]][place[0]])[c]) <= 3, "the picture is as it was"));
+    clean(page);
+  }
+});
+
 test("no serious accessibility fault", async () => {
   for (const dark of [false, true]) await assertSound(await look("&im.l=all&im.f=1&im.s=2,2,9,9", { dark }));
 });

@@ -106,3 +106,15 @@ test("methods, time, metric and scene change them", async () => {
   await checkMeans(page, wanted);
   await checkPairs(page, wanted, "");
 });
+
+test("no name of a ring covers another, however narrow", async () => {
+  for (const width of [400, 1280]) {
+    const page = await open("front", { hash: "v=knobs", width });
+    await page.waitForSelector(".chart g.name text");
+    const boxes = await page.locator(".chart g.name text").evaluateAll((all) => all.map((e) => ({ name: e.textContent, ...e.getBoundingClientRect().toJSON() })));
+    assert.deepEqual(boxes.map((b) => b.name).sort(), keys);
+    for (const a of boxes) for (const b of boxes)
+      assert.ok(a === b || a.right < b.left || b.right < a.left || a.bottom - 2 < b.top || b.bottom - 2 < a.top, `${width} px: ${a.name} and ${b.name}`);
+    for (const b of boxes) assert.ok(b.left >= 0 && b.right <= width, `${width} px: ${b.name} from ${b.left} to ${b.right}`);
+  }
+});

@@ -24,9 +24,10 @@ export function made(name, change) {
 }
 
 // A history whose figures are known: series i of report r has 10 (i + 1) ms, but for the steps given as
-// [series, report, ratio]; intervals are ± 1 %.
-export function madeHistory({ reports, series, steps = [], methods = ["mfis", "fis", "vpl"], scenes = ["cornell", "ring514"], refused = [] }) {
-  const figure = (i, r) => steps.reduce((v, [s, from, ratio]) => (s === i && r >= from ? v * ratio : v), 10 * (i + 1));
+// [series, report, ratio], and for what crept, given as [series, from, to, ratio]; intervals are ± 1 %.
+export function madeHistory({ reports, series, steps = [], crept = [], methods = ["mfis", "fis", "vpl"], scenes = ["cornell", "ring514"], refused = [] }) {
+  const drift = (i, r) => crept.reduce((v, [s, from, to, ratio]) => (s === i ? v * ratio ** Math.min(1, Math.max(0, (r - from) / (to - from))) : v), 1);
+  const figure = (i, r) => steps.reduce((v, [s, from, ratio]) => (s === i && r >= from ? v * ratio : v), 10 * (i + 1) * drift(i, r));
   const range = (n) => [...Array(n).keys()];
   const estimates = (make) => ({ value: range(reports).map(make), lo: range(reports).map((r) => make(r) * 0.99), hi: range(reports).map((r) => make(r) * 1.01) });
   return {
@@ -37,7 +38,9 @@ export function madeHistory({ reports, series, steps = [], methods = ["mfis", "f
     series: range(series).map((i) => ({
       id: `${scenes[i % scenes.length]}/${methods[i % methods.length]}/N=${i}`, scene: scenes[i % scenes.length], method: methods[i % methods.length],
       label: `${methods[i % methods.length]} N=${i}`, values: { method: estimates((r) => figure(i, r)), smape: estimates(() => i + 5) }, noise: { method: 0.02 } })),
-    changes: steps.map(([s, report, ratio, persistent = true]) => ({
-      report, series: s, column: "method", change: ratio > 1 ? "slower" : "faster", ratio, lo: ratio * 0.99, hi: ratio * 1.01, persistent })),
+    changes: [
+      ...steps.map(([s, report, ratio, persistent = true]) => ({ report, series: s, ratio, until: null, persistent })),
+      ...crept.map(([s, report, until, ratio]) => ({ report, series: s, ratio, until, persistent: true })),
+    ].map((c) => ({ ...c, column: "method", change: c.ratio > 1 ? "slower" : "faster", lo: c.ratio * 0.99, hi: c.ratio * 1.01 })),
   };
 }

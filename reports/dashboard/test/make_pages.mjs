@@ -80,8 +80,9 @@ function pair() {
   page("pair", join(pages, "pair-base"), join(pages, "pair"));
 }
 
-// 300 reports with 0.4 % of noise: from the 181st the first case is 3 % slower, and from the 241st
-// another is 8 % faster. history/report.json is the newest; history/steps.json says which.
+// 300 reports with 0.4 % of noise: from the 181st the first case is 3 % slower, from the 241st another is 8 % faster,
+// and a third creeps from the 61st to the 201st, 0.04 % a report. history/report.json is the newest;
+// history/steps.json says which.
 function history() {
   const base = read(join(source, "reports/gate-lavapipe/report.json"));
   const random = randoms(1);
@@ -89,6 +90,7 @@ function history() {
     { case: base.cases[0].id, report: 180, ratio: 1.03 },
     { case: base.cases[1].id, report: 240, ratio: 0.92 },
   ];
+  const crept = { case: base.cases[2].id, from: 60, to: 200, ratio: 1.06 };
   for (const pair of base.aa) {
     for (const t of pair.times) Object.assign(t, { ratio: 1, ci95: [0.995, 1.005], noise_floor: 0.005 });
   }
@@ -102,14 +104,15 @@ function history() {
     for (const c of report.cases) {
       const noise = 1 + 0.004 * (random() + random() + random() - 1.5);
       const step = steps.find((s) => s.case === c.id);
-      scaleCase(c, noise * (step && i >= step.report ? step.ratio : 1));
+      const share = c.id === crept.case ? Math.min(1, Math.max(0, (i - crept.from) / (crept.to - crept.from))) : 0;
+      scaleCase(c, noise * (step && i >= step.report ? step.ratio : 1) * crept.ratio ** share);
     }
     const name = `history-${String(i).padStart(3, "0")}`;
     write(join("history-reports", name), report);
     if (i === 299) write("history", report);
     files.push(join(pages, "history-reports", name));
   }
-  writeFileSync(join(folder("history"), "steps.json"), JSON.stringify(steps));
+  writeFileSync(join(folder("history"), "steps.json"), JSON.stringify({ steps, crept }));
   page("history", ...files);
 }
 

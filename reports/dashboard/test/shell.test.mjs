@@ -1,7 +1,7 @@
 // Every view of every page: no error, nothing leaves the page; light, dark and keys.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { close, open, report } from "./harness.mjs";
+import { close, open, report, saved } from "./harness.mjs";
 
 after(close);
 const names = ["front", "flicker", "generation", "history", "images", "pair"];
@@ -50,6 +50,13 @@ test("a view that the page has not is said to be missing", async () => {
   assert.equal(await page.locator("[role=status].warning").count(), 0);
   const without = await open("front", { hash: "v=flicker" });
   assert.match(await without.locator("[role=status].warning").textContent(), /nothing for the view “Flicker”/);
+});
+
+test("a head has no unit where every cell has its own, and the CSV has it", async () => {
+  const page = await open("front", { hash: "v=cases" });
+  assert.deepEqual((await page.locator("#view thead button").allTextContents()).filter((t) => t.startsWith("memory")), ["memory bytes"]);
+  const rows = await saved(page, "All cases");
+  assert.equal(Number(rows[0]["memory bytes (B)"]), report("front").cases[0].generate.memory_bytes);
 });
 
 test("choosing a row keeps focus and the rows that were asked for", async () => {

@@ -62,3 +62,8 @@ test("all cells stand in a table, the worst above; dark and narrow are sound", a
   assert.deepEqual(rows.slice(0, 3).map((r) => [r[0], r[4]]), [["mirror-half", "infinite"], ["mirror-half", "0.300"], ["sharpness", "0.00400"]]);
   await assertSound(p);
 });
+
+test("boxes are of the methods of the matrix alone", async () => {
+  const p = await open("front", { hash: "v=stability" });
+  assert.deepEqual(await p.locator(".methods .check").allTextContents(), ["fis", "mfis"]);
+});

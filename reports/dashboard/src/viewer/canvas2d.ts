@@ -41,8 +41,7 @@ export class CanvasRenderer implements Renderer {
     const context = this.canvas.getContext("2d")!;
     const ratio = window.devicePixelRatio;
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.fillStyle = "rgb(22 23 27)";
-    context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     for (const pane of panes) {
       pane.layers.forEach((layer, side) => {

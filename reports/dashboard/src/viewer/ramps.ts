@@ -22,7 +22,6 @@ export const SIGNED: Rgb[] = [
 
 export const NOT_FINITE: Rgb = [255, 0, 255];
 export const NO_SURFACE: Rgb = [70, 70, 74];
-export const BEHIND: Rgb = [22, 23, 27];
 
 // At t in 0 … 1, clamped.
 export function mix(stops: readonly Rgb[], t: number): [number, number, number] {

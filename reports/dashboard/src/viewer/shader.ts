@@ -17,7 +17,7 @@ uniform float zoom;    // device pixels a pixel
 uniform vec3 line;     // the second layer lies where line.xy * p >= line.z
 uniform float exposure, range;
 uniform vec2 stops;    // of false colours
-uniform vec3 behind, noSurface, notFinite;
+uniform vec3 noSurface, notFinite;
 out vec4 color;
 
 bool isBad(vec3 v) { return any(equal(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u))); }
@@ -71,7 +71,7 @@ vec3 shade(sampler2D x, sampler2D r, int kind, vec2 pixel) {
 void main() {
   vec2 p = gl_FragCoord.xy;
   vec2 pixel = vec2(p.x - origin.x, origin.y - p.y) / zoom;
-  if (any(lessThan(pixel, vec2(0.0))) || any(greaterThanEqual(pixel, vec2(size)))) color = vec4(behind, 1.0);
+  if (any(lessThan(pixel, vec2(0.0))) || any(greaterThanEqual(pixel, vec2(size)))) color = vec4(0.0);
   else if (dot(line.xy, p) >= line.z) color = vec4(shade(x1, r1, kinds.y, pixel), 1.0);
   else color = vec4(shade(x0, r0, kinds.x, pixel), 1.0);
 }

@@ -1,6 +1,6 @@
 // Draws with WebGL2: pictures are float textures, read pixel by pixel.
 import type { Picture } from "./picture";
-import { BEHIND, INFERNO, NO_SURFACE, NOT_FINITE, SIGNED, texels } from "./ramps";
+import { INFERNO, NO_SURFACE, NOT_FINITE, SIGNED, texels } from "./ramps";
 import { type Box, type Camera, type Divider, type Layer, type Look, type Pane, type Renderer, STOPS, toScreen } from "./scene";
 import { FRAGMENT, KINDS, VERTEX } from "./shader";
 
@@ -16,7 +16,7 @@ export class WebGlRenderer implements Renderer {
   // Throws where there is no WebGL2.
   constructor(onLost: () => void) {
     // What is drawn is kept for printing.
-    const gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true });
+    const gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL2");
     this.gl = gl;
     this.program = this.link();
@@ -28,7 +28,7 @@ export class WebGlRenderer implements Renderer {
   draw(panes: Pane[], camera: Camera, look: Look, divider: Divider): void {
     const gl = this.gl;
     gl.disable(gl.SCISSOR_TEST);
-    gl.clearColor(BEHIND[0] / 255, BEHIND[1] / 255, BEHIND[2] / 255, 1);
+    gl.clearColor(0, 0, 0, 0); // beside the pictures the stage is seen
     gl.clear(gl.COLOR_BUFFER_BIT);
     gl.enable(gl.SCISSOR_TEST);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
@@ -124,7 +124,7 @@ export class WebGlRenderer implements Renderer {
     const both = new Uint8Array([...texels(INFERNO), ...texels(SIGNED)]);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 256, 2, 0, gl.RGBA, gl.UNSIGNED_BYTE, both);
     gl.uniform2f(this.at("stops"), STOPS.low, STOPS.high);
-    for (const [name, c] of [["behind", BEHIND], ["noSurface", NO_SURFACE], ["notFinite", NOT_FINITE]] as const)
+    for (const [name, c] of [["noSurface", NO_SURFACE], ["notFinite", NOT_FINITE]] as const)
       gl.uniform3f(this.at(name), c[0] / 255, c[1] / 255, c[2] / 255);
   }
 

@@ -56,7 +56,7 @@ function waterfall(page: Page, budget: Budget, most: number, width: number): Ele
     color: { type: "identity" },
     marks: [
       Plot.barX(bars, { y: "name", x1: "from", x2: "to", fill: colour, fillOpacity: 0.85, insetTop: 16, insetBottom: 4 }),
-      Plot.text(bars, { y: "name", text: "name", x: 0, textAnchor: "start", dy: -9, fill: "currentColor", stroke: "var(--page)", strokeWidth: 3 }),
+      Plot.text(bars, { y: "name", text: "name", x: 0, textAnchor: "start", dx: 4, dy: -9, fill: "currentColor", stroke: "var(--page)", strokeWidth: 3 }),
       Plot.text(bars, { y: "name", x: (b: Bar) => Math.max(b.from, b.to), text: "text", textAnchor: "start", dx: 5, dy: 7, fill: "currentColor", stroke: "var(--page)", strokeWidth: 3 }),
       Plot.ruleX([0], { stroke: "var(--soft)" }),
     ],

@@ -20,7 +20,7 @@ function columnsOf(page: Page): Column<number>[] {
     ...(time.name === "" ? [] : [timeColumn]),
     ...(metric.name === "" ? [] : [errorColumn]),
     ...report.extra.map((e): Column<number> => ({
-      key: e.name, title: e.name.replaceAll("_", " "), unit: e.unit, hint: e.words,
+      key: e.name, title: e.name.replaceAll("_", " "), unit: e.unit, hint: e.words, scaled: e.unit === "B",
       value: (c) => cases.extra[e.name]?.[c] ?? null,
       text: (c) => (e.unit === "B" ? bytes(cases.extra[e.name]?.[c]) : figure(cases.extra[e.name]?.[c], 4)),
     })),

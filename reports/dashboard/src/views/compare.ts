@@ -1,4 +1,5 @@
 // Two reports beside each other: what became faster, slower, better, worse.
+import { allMethods } from "../colours";
 import type { Comparison } from "../data";
 import { checkbox, choice, h } from "../dom";
 import { figure } from "../format";
@@ -89,7 +90,8 @@ function rowsTable(page: Page, rows: Row[]): HTMLElement {
 export const compareView: View = {
   id: "compare",
   title: "Compare",
-  filters: [],
+  filters: ["methods"],
+  methods: ({ digest }) => allMethods(digest).filter((m) => digest.comparison?.rows.some((r) => r.method === m)),
   has: (page) => page.digest.comparison !== null,
   draw(root, page) {
     const c = page.digest.comparison!, body = h("div");
@@ -97,7 +99,7 @@ export const compareView: View = {
     if (c.rows.length === 0) return;
     const fill = () => {
       const rows = shownRows(c.rows, page.state);
-      const width = Math.max(120, Math.min(420, root.clientWidth - 250));
+      const width = Math.max(90, Math.min(420, root.clientWidth - 290));
       if (rows.length === 0) body.replaceChildren(h("p", {}, "No row is left by these filters: what is the same is hidden until it is asked for."));
       else body.replaceChildren(chart(rows, width), rowsTable(page, rows));
     };

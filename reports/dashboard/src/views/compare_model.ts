@@ -31,9 +31,9 @@ export const size = (r: Row) => Math.abs(Math.log(r.ratio));
 
 // Regressions first, then improvements, then the rest; each from the largest.
 export function shownRows(all: Row[], state: State): Row[] {
-  const hidden = hiddenChanges(state), what = state.get("co.w"), text = state.get("co.q");
+  const hidden = hiddenChanges(state), hiddenMethods = new Set(state.list("x")), what = state.get("co.w"), text = state.get("co.q");
   const rank = { worse: 0, better: 1, unclear: 2, same: 3 };
-  const rows = all.filter((r) => !hidden.has(r.change) && (what === "" || r.what === what) && holdsAll(`${r.case} ${r.what}`, text));
+  const rows = all.filter((r) => !hidden.has(r.change) && !hiddenMethods.has(r.method) && (what === "" || r.what === what) && holdsAll(`${r.case} ${r.what}`, text));
   if (state.get("co.o") === "size") return rows.sort((a, b) => size(b) - size(a));
   return rows.sort((a, b) => rank[kindOf(a.change)] - rank[kindOf(b.change)] || size(b) - size(a));
 }

@@ -57,7 +57,7 @@ function panelsOf(page: Page, history: History, c: HistoryChoice, set: Apply): {
 function legend(): HTMLElement {
   const item = (kind: string, glyph: string, text: string) => h("span", {}, h("span", { class: `change-${kind}` }, glyph), ` ${text}`);
   return h("p", { class: "legend note" },
-    item("worse", "▲", "slower or worse"), item("better", "▼", "faster or better"), h("span", {}, "filled: persistent; hollow: not"), item("refusal", "✕", "not compared with the one before"),
+    item("worse", "▲", "slower or worse"), item("better", "▼", "faster or better"), h("span", {}, "filled: persistent; hollow: not; dashed: it crept there, in steps too small to be told from noise"), item("refusal", "✕", "not compared with the one before"),
     h("span", {}, "Bars below the lines count the series that changed. Pointing at a line shows its 95 % intervals and, in grey, A/A noise round its level; a click opens it; dragging zooms."));
 }
 

@@ -28,7 +28,7 @@ export function describe(history: History, c: HistoryChoice, line: Line, report:
   if (line.noise !== null) add("A/A noise", `± ${significant(100 * line.noise)} %`);
 
   const changes = history.changes.filter((k) => k.report === report && k.column === c.column.name && line.series.includes(k.series));
-  if (line.series.length === 1) for (const k of changes) add("compare:", verdict(k), `change-${kindOf(k.change)}`);
+  if (line.series.length === 1) for (const k of changes) add(k.until === null ? "compare:" : "crept:", verdict(k), `change-${kindOf(k.change)}`);
   else if (changes.length > 0) add("compare:", summary(changes));
   const most = line.series.length > 1 ? mover(history, line, c.column.name, report) : null;
   if (most) add("changed most:", `${most.label} ${percentChange(most.ratio)}`);
@@ -40,7 +40,7 @@ export function describe(history: History, c: HistoryChoice, line: Line, report:
 }
 
 export function verdict(c: Change): string {
-  return `${changeText(c.change)} ${changeWithInterval(c.ratio, c.lo, c.hi)}, ${c.persistent ? "persistent" : "not persistent"}`;
+  return `${changeText(c.change)} ${changeWithInterval(c.ratio, c.lo, c.hi)}, ${c.until !== null ? `from report ${c.report + 1} to ${c.until + 1}` : c.persistent ? "persistent" : "not persistent"}`;
 }
 
 function summary(changes: Change[]): string {

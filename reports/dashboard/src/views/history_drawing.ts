@@ -158,6 +158,9 @@ export function drawMarks(f: Frame, line: Line, changes: Change[]): SVGElement {
     const v = line.y[c.report];
     if (!line.series.includes(c.series) || v === null || c.report < f.options.from || c.report > f.options.to) continue;
     const kind = kindOf(c.change), lift = kind === "better" ? 11 : -11;
+    const end = c.until === null ? null : line.y[c.until];
+    if (end !== null && c.until! <= f.options.to)
+      out.append(svg("line", { x1: f.x(c.report), y1: f.y.at(v) + lift, x2: f.x(c.until!), y2: f.y.at(end) + lift, class: `crept change-${kind}` }));
     out.append(svg("path", { d: changePath(c.change, 5), transform: `translate(${f.x(c.report)},${f.y.at(v) + lift})`,
                              class: `change-${kind}${c.persistent ? "" : " passing"}` }));
   }

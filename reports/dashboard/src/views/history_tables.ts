@@ -19,12 +19,14 @@ export function changesTable(history: History, changes: Change[], caption: strin
     { key: "column", title: "of", value: (c) => titles.get(c.column) ?? c.column },
     { key: "scene", title: "scene", value: (c) => of(c).scene },
     { key: "series", title: "series", value: (c) => of(c).label },
+    { key: "until", title: "crept until", hint: "the report by which it had crept three quarters of the way, in steps too small to be told from noise", value: (c) => (c.until === null ? null : c.until + 1) },
     { key: "persistent", title: "persistent", value: (c) => (c.persistent ? "yes" : "no") },
     { key: "commit", title: "commit", value: (c) => commitText(history, c.report) },
     { key: "date", title: "date", value: (c) => dateText(history, c.report) },
     { key: "id", title: "case", value: (c) => of(c).id },
   ];
-  const shown = columns.filter((k) => k.key !== "persistent" || changes.some((c) => !c.persistent));
+  const told: Record<string, (c: Change) => boolean> = { until: (c) => c.until !== null, persistent: (c) => !c.persistent };
+  const shown = columns.filter((k) => !told[k.key] || changes.some(told[k.key]));
   return table({ caption, file: `vsglbench-${prefix.replace(".", "-")}`, rows: changes, columns: shown, state, prefix, choose: jump,
                  chooseLabel: (c) => `Open ${of(c).label} at report ${c.report + 1}` });
 }

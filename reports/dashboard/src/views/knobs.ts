@@ -20,17 +20,17 @@ function ratioChart(page: Page, means: Mean[], pairs: Pair[]): HTMLElement {
     const x = logDomain([...drawn.map((p) => p.timeRatio), ...rings.map((k) => k.timeRatio), 1], 1.2);
     const y = logDomain([...drawn.map((p) => p.errorRatio), ...rings.map((k) => k.errorRatio), 1], 1.2);
     const look = (p: Pair) => lookOf(digest, p.method);
-    const sides = sidesOf(rings, x, width);
-    const name = (side: "left" | "right") => Plot.text(rings.filter((r) => sides.get(r) === side), { x: "timeRatio", y: "errorRatio", text: "key", dx: side === "left" ? -11 : 11, textAnchor: side === "left" ? "end" : "start", fontWeight: 600, fill: "var(--ink)", stroke: "var(--page)", strokeWidth: 4 });
+    const height = Math.round(Math.min(460, Math.max(320, width * 0.5)));
+    const name = ({ ring, ...place }: Name) => Plot.text([ring], { x: "timeRatio", y: "errorRatio", text: "key", ...place, fontWeight: 600, fill: "var(--ink)", stroke: "var(--page)", strokeWidth: 4, className: "name" });
     const plot = Plot.plot({
-      ...plotDefaults(width, Math.round(Math.min(460, Math.max(320, width * 0.5)))),
+      ...plotDefaults(width, height),
       x: logScale(x), y: logScale(y), symbol: { type: "identity" }, color: { type: "identity" },
       marks: [
         ...logAxisX(x, `${timeOf(page).name} time, after / before →`, width < 560 ? 7 : 12), ...logAxisY(y, "↑ error, after / before"),
         Plot.frame({ stroke: "var(--line)" }), Plot.ruleX([1], { stroke: "var(--soft)" }), Plot.ruleY([1], { stroke: "var(--soft)" }),
         Plot.dot(drawn, { x: "timeRatio", y: "errorRatio", r: 3.5, fill: (p: Pair) => look(p).colour, symbol: (p: Pair) => look(p).symbol, fillOpacity: 0.8, className: "pairs" }),
         Plot.dot(rings, { x: "timeRatio", y: "errorRatio", r: 7, stroke: "var(--ink)", strokeWidth: 2, className: "means" }),
-        name("right"), name("left"),
+        ...namesOf(rings, x, y, width, height).map(name),
       ],
     });
     const sx = plot.scale("x")!, sy = plot.scale("y")!;
@@ -43,11 +43,33 @@ function ratioChart(page: Page, means: Mean[], pairs: Pair[]): HTMLElement {
   });
 }
 
-// A name stands on the left of its ring where there is no room for it on the right.
-function sidesOf(rings: Mean[], x: [number, number], width: number): Map<Mean, "left" | "right"> {
-  const room = width - 70; // the frame, within the margins of plotDefaults
-  const at = (m: Mean) => (Math.log(m.timeRatio! / x[0]) / Math.log(x[1] / x[0])) * room;
-  return new Map(rings.map((m) => [m, at(m) + 11 + 8 * m.key.length > room ? "left" : "right"]));
+interface Name {
+  ring: Mean;
+  dx: number;
+  dy: number;
+  textAnchor: "start" | "middle" | "end";
+}
+
+// A name stands on the right of its ring, or where there is no room left, below, above; by hand, since Plot places no labels.
+function namesOf(rings: Mean[], x: [number, number], y: [number, number], width: number, height: number): Name[] {
+  const room = { x: width - 70, y: height - 68 }; // the frame, within the margins of plotDefaults
+  const along = (v: number, [lo, hi]: [number, number], size: number) => (Math.log(v / lo) / Math.log(hi / lo)) * size;
+  const taken: { left: number; right: number; y: number }[] = [];
+  return rings.map((ring) => {
+    const cx = along(ring.timeRatio!, x, room.x), cy = room.y - along(ring.errorRatio!, y, room.y), long = 8 * ring.key.length;
+    const places: [Name, number][] = [
+      [{ ring, dx: 11, dy: 0, textAnchor: "start" }, cx + 11], [{ ring, dx: -11, dy: 0, textAnchor: "end" }, cx - 11 - long],
+      [{ ring, dx: 0, dy: 17, textAnchor: "middle" }, cx - long / 2], [{ ring, dx: 0, dy: -17, textAnchor: "middle" }, cx - long / 2],
+    ];
+    const box = ([name, left]: [Name, number]) => ({ left, right: left + long, y: cy + name.dy });
+    const free = places.find((p) => {
+      const b = box(p);
+      return b.left > -10 && b.right < room.x + 10 && taken.every((t) => Math.abs(t.y - b.y) > 13 || t.right < b.left || t.left > b.right);
+    });
+    const chosen = free ?? places[0];
+    taken.push(box(chosen));
+    return chosen[0];
+  });
 }
 
 function knobTable(page: Page, means: Mean[]): HTMLElement {

@@ -36,7 +36,7 @@ function pieces(page: Page, cases: number[], shares: boolean): Piece[] {
     return order.map((i) => {
       const from = at;
       at += of.ms[i] * scale;
-      return { row, pass: of.pass[i], from, to: at, ms: of.ms[i], lo: of.lo[i], hi: of.hi[i] };
+      return { row, pass: of.pass[i], from, to: at, ms: of.ms[i], lo: of.ms[i] * (1 - of.below[i] / 1e4), hi: of.ms[i] * (1 + of.above[i] / 1e4) };
     });
   });
 }

@@ -101,6 +101,7 @@ export const stabilityView: View = {
   id: "stability",
   title: "Stability",
   filters: ["methods"],
+  methods: ({ digest }) => [...new Set(digest.stability?.cells.map((c) => c.method))],
   has: (page) => page.digest.stability !== null,
   draw(root, page) {
     const s = page.digest.stability!;
