@@ -51,15 +51,15 @@ TEST_F(SceneCommands, EveryCommandTakesAModel) {
   EXPECT_EQ(truth.code, 0) << truth.err;
   EXPECT_TRUE(contains(truth.err, "a view and a spot were found"));
   EXPECT_TRUE(contains(truth.out, "6 triangles, 16 samples"));
-  EXPECT_TRUE(contains(truth.out, "box.gltf.reference.exr"));
+  EXPECT_TRUE(contains(truth.out, "box.reference.exr"));
   const Finished effects = run({"effects", "--scene", box()});
   EXPECT_EQ(effects.code, 0) << effects.err;
   EXPECT_TRUE(contains(effects.out, "occlusion"));
 }
 
 TEST_F(SceneCommands, AModelInPlaceOfAConfigIsTheScene) {
-  const Finished f = run({"run", box(), "--scale", "small", "--only", "*/vpl/*", "--set",
-                          "reference.samples=16", "--out", out_.string()});
+  const Finished f =
+      run({"run", box(), "--scale", "small", "--only", "*/vpl/*", "--set", "N=16", "--out", out_.string()});
   EXPECT_EQ(f.code, 0) << f.err;
   EXPECT_TRUE(contains(f.err, "is a scene: the methods are those of configs/quick.json"));
   EXPECT_EQ(report().scenes.at(0).triangles, 6u);

@@ -33,7 +33,7 @@ TEST_F(ConfigTest, IdsNameTheKeysInWhichTwoEntriesOfAMethodDiffer) {
 TEST_F(ConfigTest, IdsNameIntegersWithoutAFraction) {
   config_["N"] = 16.0;
   config_["rsm"] = {16, 32.0};
-  config_["methods"] = {{{"method", "mfis"}, {"progressive", {0, 2.0}}, {"K", {1.0, 2}}}};
+  config_["methods"] = {{{"method", "mfis"}, {"progressive", {1, 2.0}}, {"K", {1.0, 2}}}};
   std::string all;
   for (const std::string& id : ids()) all += id + "\n";
   EXPECT_TRUE(contains(all, "mfis/N=16,rsm=16,"));

@@ -71,6 +71,31 @@ TEST(FoundViews, OfAConvexObjectAreNone) {
   EXPECT_FALSE(found && is_good(found->measure));
 }
 
+// A shot that is good but for one thing.
+TEST(FoundViews, AreGoodInAllThatIsWanted) {
+  const ShotMeasure good{.seen = 0.9,
+                         .subject = 0.3,
+                         .lit = 1,
+                         .lit_seen = 0.5,
+                         .direct = 0.4,
+                         .subject_direct = 0.4,
+                         .reached = 0.9,
+                         .strength = 0.3,
+                         .nearest = 1,
+                         .depth = 1};
+  EXPECT_TRUE(is_good(good));
+  for (double ShotMeasure::*part : {&ShotMeasure::seen, &ShotMeasure::lit_seen, &ShotMeasure::subject_direct,
+                                    &ShotMeasure::reached, &ShotMeasure::strength}) {
+    ShotMeasure poor = good;
+    poor.*part = 0;
+    EXPECT_FALSE(is_good(poor));
+  }
+  ShotMeasure dim = good;
+  dim.strength = 0.02;
+  EXPECT_TRUE(is_good(dim));
+  EXPECT_FALSE(is_good(dim, kWantedOfLoneObject));
+}
+
 // --- as a file by itself is loaded, with scenery where it needs some ---
 
 class FoundModels : public GltfFixture {
