@@ -2,11 +2,10 @@
 
 #include "base/file.h"
 #include "cli/command.h"
-#include "image/exr.h"
 #include "image/metrics.h"
-#include "image/png.h"
 #include "reference/cache.h"
 #include "report/export.h"
+#include "report/image_labels.h"
 #include "run/memory.h"
 #include "run/runner.h"
 #include "scene/gltf_export.h"
@@ -37,9 +36,13 @@ void write_scene(const ExportCommand& command) {
     require_reference_memory(command.reference.width, command.reference.height);
     bool cached = false;
     const ReferenceResult reference = load_or_compute(scene, command.reference, &cached);
-    write_exr(command.folder / "reference.exr", reference.mean, reference.mask);
-    write_png(command.folder / "reference.png", reference.mean,
-              auto_exposure(reference.mean, reference.mask));
+    Labels labels = radiance_image_labels("indirect radiance, ray-traced reference", scene.name, scene.hash);
+    labels.insert({{"reference", reference.hash}, {"samples", fmt::format("{}", reference.samples)}});
+    write_exr(command.folder / "reference.exr", reference.mean, reference.mask, labels);
+    const float exposure = auto_exposure(reference.mean, reference.mask);
+    labels.erase("A");
+    labels["exposure"] = fmt::format("{}", exposure);
+    write_png(command.folder / "reference.png", tone_map(reference.mean, exposure), labels);
   }
   fmt::print("{}\n", (command.folder / "README.md").string());
 }

@@ -3,7 +3,7 @@
 
 #include "base/csv.h"
 #include "cli/cli_fixture.h"
-#include "image/png.h"
+#include "image/labelled.h"
 
 namespace fs = std::filesystem;
 
@@ -36,6 +36,13 @@ TEST_F(LightsCommand, WritesPicturesListsAndCoverage) {
   for (const char* method : {"mfis", "kmeans2d", "vpl"}) {
     EXPECT_EQ(read_png(folder(method) / "rsm.png").width, 16u * 16 + 24) << method;
     EXPECT_GT(read_png(folder(method) / "scene.png").width, 900u) << method;
+    for (const char* picture : {"rsm.png", "scene.png"}) {
+      const Labels said = png_labels(read_text(folder(method) / picture));
+      EXPECT_EQ(said.at("case"), std::string("cornell/") + method + "/N=16,rsm=16,vis=exact");
+      EXPECT_EQ(said.at("seed"), "5");
+      EXPECT_EQ(said.at("scene"), "cornell");
+      EXPECT_FALSE(said.at("sceneHash").empty());
+    }
     const bool filters = std::string(method) == "mfis";
     EXPECT_EQ(fs::exists(folder(method) / "moments.png"), filters) << method;
     if (filters) {

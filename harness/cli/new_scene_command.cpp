@@ -6,7 +6,7 @@
 #include "base/log.h"
 #include "base/printable.h"
 #include "cli/scene_commands.h"
-#include "image/png.h"
+#include "report/image_labels.h"
 #include "scene/gltf.h"
 #include "scene/model_scene.h"
 #include "scene/preview.h"
@@ -58,7 +58,8 @@ void make(const NewSceneOptions& options) {
   const ModelScene made = model_scene(options.model, geometry, relative.string());
   write_text(file, compact(made.json) + "\n");
   const Scene scene = load_scene(file.string(), {});
-  write_png(options.folder / "preview.png", preview_picture(TriangleTree(scene)));
+  write_png(options.folder / "preview.png", preview_picture(TriangleTree(scene)),
+            image_labels("preview of camera and light", scene.name, scene.hash));
   for (const std::string& warning : scene.warnings) log_warning("{}", printable(warning));
   for (const std::string& note : made.notes) fmt::print("{}\n", printable(note));
   fmt::print("{}\n{}\nnext: vsglbench view {}; vsglbench run --scene {}\n", file.string(),

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
@@ -9,10 +7,9 @@
 #include "base/printable.h"
 #include "base/progress.h"
 #include "cli/command.h"
-#include "image/labelled.h"
 #include "image/metrics.h"
 #include "reference/cache.h"
-#include "report/environment.h"
+#include "report/image_labels.h"
 #include "run/memory.h"
 #include "run/references.h"
 #include "run/runner.h"
@@ -48,14 +45,10 @@ std::string check_floor(const std::string& text) {
 
 void write_images(const ReferenceOptions& options, const Scene& scene, const ReferenceResult& r,
                   const std::string& stem) {
-  Labels labels = radiance_labels();
-  labels.insert({{"content", "indirect radiance, ray-traced reference"},
-                 {"scene", scene.name},
-                 {"sceneHash", scene.hash},
-                 {"reference", r.hash},
+  Labels labels = radiance_image_labels("indirect radiance, ray-traced reference", scene.name, scene.hash);
+  labels.insert({{"reference", r.hash},
                  {"samples", fmt::format("{}", r.samples)},
-                 {"seed", fmt::format("{}", options.parameters.seed)},
-                 {"software", "vsglbench, commit " + build_git().commit}});
+                 {"seed", fmt::format("{}", options.parameters.seed)}});
   write_exr(options.out / (stem + ".reference.exr"), r.mean, r.mask, labels);
   const float exposure = auto_exposure(r.mean, r.mask);
   labels.erase("A");
@@ -73,10 +66,7 @@ void compute(const ReferenceOptions& options) {
   const ReferenceResult r = load_or_compute(scene, parameters, &cached);
   const std::string stem = file_name(scene.name) + (options.no_occlusion ? ".no-occlusion" : "");
   write_images(options, scene, r, stem);
-  if (std::ranges::all_of(r.mean.pixels, [](const glm::vec3& p) { return p == glm::vec3(0); })) {
-    throw fail(ErrorKind::case_failed, "{}: no indirect light reaches the view: the reference is black",
-               scene.name);
-  }
+  if (const auto doubt = doubt_about(scene, r)) log_warning("{}: {}", scene.name, *doubt);
   fmt::print(
       "{}{}: {} triangles, {} samples in {} batches{}, {:.1f} M rays in {} ({}), noise floor {:.2f} % "
       "SMAPE{}, "

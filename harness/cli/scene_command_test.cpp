@@ -36,6 +36,35 @@ TEST_F(SceneCommands, AModelIsMeasuredAndSoIsItsSceneFile) {
                  "is no glTF file");
 }
 
+// With --scene, and in place of a config.
+TEST_F(SceneCommands, EveryCommandTakesAModel) {
+  const std::string config = write_config().string();
+  const fs::path lights = folder_ / "lights", references = folder_ / "references";
+  const Finished drawn = run({"-q", "lights", config, "--scene", box(), "--out", lights.string()});
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  size_t pictures = 0;
+  for (const auto& file : fs::recursive_directory_iterator(lights))
+    pictures += file.path().filename() == "scene.png";
+  EXPECT_EQ(pictures, 1u);
+  const Finished truth = run({"reference", "--scene", box(), "--width", "32", "--height", "18", "--samples",
+                              "16", "--out", references.string()});
+  EXPECT_EQ(truth.code, 0) << truth.err;
+  EXPECT_TRUE(contains(truth.err, "a view and a spot were found"));
+  EXPECT_TRUE(contains(truth.out, "6 triangles, 16 samples"));
+  EXPECT_TRUE(contains(truth.out, "box.reference.exr"));
+  const Finished effects = run({"effects", "--scene", box()});
+  EXPECT_EQ(effects.code, 0) << effects.err;
+  EXPECT_TRUE(contains(effects.out, "occlusion"));
+}
+
+TEST_F(SceneCommands, AModelInPlaceOfAConfigIsTheScene) {
+  const Finished f =
+      run({"run", box(), "--scale", "small", "--only", "*/vpl/*", "--set", "N=16", "--out", out_.string()});
+  EXPECT_EQ(f.code, 0) << f.err;
+  EXPECT_TRUE(contains(f.err, "is a scene: the methods are those of configs/quick.json"));
+  EXPECT_EQ(report().scenes.at(0).triangles, 6u);
+}
+
 TEST_F(SceneCommands, WhatIsNoSceneIsRefused) {
   expect_refused(run_on("absent.glb", out_), 2, "--scene 1: no scene 'absent.glb'");
   expect_refused(run_on("cornel", out_), 2, "did you mean 'cornell'?");

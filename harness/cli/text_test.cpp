@@ -59,7 +59,8 @@ TEST_F(TextTest, WholeNumbersAndEmptyLists) {
   config_["N"] = 16.0;
   EXPECT_EQ(run_config().code, 0);
   ASSERT_EQ(report().cases.size(), 1u);
-  EXPECT_EQ(report().cases[0].parameters.at("N"), 16);  // its id keeps what the config writes
+  EXPECT_EQ(report().cases[0].parameters.at("N"), 16);
+  EXPECT_TRUE(contains(report().cases[0].id, "/N=16,"));
   config_["N"] = Json::array();
   expect_refused(run_config(), 2, "'N' is an empty list");
   config_["N"] = 16.5;
@@ -86,6 +87,18 @@ TEST_F(TextTest, ABlackReferenceIsNoSuccess) {
   const Finished f = reference(write_scene("square", square_scene(), box.dump()));
   expect_refused(f, 1, "no indirect light reaches the view: the reference is black");
   EXPECT_EQ(f.out.find("noise floor"), std::string::npos);
+}
+
+// A thousandth of a thousandth of the light is left after two bounces, and less.
+TEST_F(TextTest, AReferenceThatIsNearlyBlackIsDoubted) {
+  Json box = box_gltf();
+  box["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", {1e-4, 1e-4, 1e-4, 1}},
+                                                 {"metallicFactor", 0}};
+  Json scene = square_scene();
+  scene["materials"] = {{{"match", "*"}, {"specular", 0}}};
+  const Finished dark = reference(write_scene("square", scene, box.dump()));
+  EXPECT_EQ(dark.code, 0) << dark.err;
+  EXPECT_EQ(count(dark.err, "the reference is nearly black"), 1u) << dark.err;
 }
 
 TEST_F(TextTest, ImagesSayWhatTheyShow) {

@@ -8,8 +8,8 @@
 #include "base/log.h"
 #include "cli/scene_arguments.h"
 #include "cli/scene_commands.h"
-#include "image/png.h"
 #include "method/registry.h"
+#include "report/image_labels.h"
 #include "run/overrides.h"
 #include "run/scene_images.h"
 #include "run/view_sheet.h"
@@ -52,9 +52,12 @@ void draw(const ViewCommand& options, ViewedCase viewed, const fs::path& path) {
     try {
       if (viewed.method_parameters.empty())
         viewed.method_parameters = resolve_parameters(find_method(viewed.method), Json::object());
-      write_png(path, view_sheet(viewed, options.sheet, [&](const std::string& action) {
-                  parent.send({{"now", action}});
-                }));
+      write_png(path,
+                view_sheet(viewed, options.sheet,
+                           [&](const std::string& action) {
+                             parent.send({{"now", action}});
+                           }),
+                image_labels("direct and indirect light, normals, RSM and PDF", viewed.scene));
       parent.send({{"done", true}});
     } catch (const ErrorList& e) {
       parent.send({{"errors", e.lines()}, {"kind", static_cast<int>(e.kind())}});

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/nearest.h"
 #include "figure/sgl22.h"
+#include "report/image_labels.h"
 
 namespace vsglbench {
 namespace {
@@ -73,7 +74,7 @@ std::vector<std::filesystem::path> write_figure(const FigureOutput& figure,
   }
   for (const auto& [name, bitmap] : figure.images) {
     paths.push_back(folder / (name + ".png"));
-    write_png(paths.back(), bitmap);
+    write_png(paths.back(), bitmap, image_labels(name));
   }
   return paths;
 }

@@ -33,8 +33,9 @@ std::string frame_control(uint32_t* sequence, const Bitmap& bitmap, const Delay&
 }
 
 // An ordinary PNG file but for its end, with the animation's chunks where they belong: before IDAT.
-std::string first_frame(const Bitmap& bitmap, uint32_t frames, const Delay& delay, uint32_t* sequence) {
-  const std::string encoded = encode_png(bitmap);
+std::string first_frame(const Bitmap& bitmap, uint32_t frames, const Delay& delay, const Labels& labels,
+                        uint32_t* sequence) {
+  const std::string encoded = with_labels(encode_png(bitmap), labels);
   std::string out(kPngSignature);
   bool pixels = false;
   for (const PngChunk& chunk : png_chunks(encoded)) {
@@ -68,7 +69,7 @@ Delay delay_of(double frames_per_second) {
 }
 
 // All chunks of the animation into an open file.
-void write_frames(std::ostream& out, uint32_t frames, const Delay& delay,
+void write_frames(std::ostream& out, uint32_t frames, const Delay& delay, const Labels& labels,
                   const std::function<Bitmap(uint32_t)>& frame) {
   uint32_t sequence = 0, width = 0, height = 0, channels = 0;
   for (uint32_t i = 0; i < frames; ++i) {
@@ -78,7 +79,8 @@ void write_frames(std::ostream& out, uint32_t frames, const Delay& delay,
       throw fail(ErrorKind::output, "frame {} has {}x{} pixels of {} channels but the first one {}x{} of {}",
                  i, bitmap.width, bitmap.height, bitmap.channels, width, height, channels);
     }
-    out << (i == 0 ? first_frame(bitmap, frames, delay, &sequence) : further_frame(bitmap, delay, &sequence));
+    out << (i == 0 ? first_frame(bitmap, frames, delay, labels, &sequence)
+                   : further_frame(bitmap, delay, &sequence));
   }
   out << png_chunk("IEND", "");
 }
@@ -86,7 +88,7 @@ void write_frames(std::ostream& out, uint32_t frames, const Delay& delay,
 }  // namespace
 
 void write_apng(const fs::path& path, uint32_t frames, double frames_per_second,
-                const std::function<Bitmap(uint32_t)>& frame) {
+                const std::function<Bitmap(uint32_t)>& frame, const Labels& labels) {
   if (frames == 0) throw fail(ErrorKind::output, "{}: an animation without frames", path.string());
   const Delay delay = delay_of(frames_per_second);
   std::exception_ptr no_frame;
@@ -101,7 +103,7 @@ void write_apng(const fs::path& path, uint32_t frames, double frames_per_second,
   try {
     write_atomically(path, [&](const fs::path& temporary) {
       std::ofstream out(temporary, std::ios::binary);
-      write_frames(out, frames, delay, asked);
+      write_frames(out, frames, delay, labels, asked);
       out.flush();
       if (!out) throw std::runtime_error(std::strerror(errno));
     });

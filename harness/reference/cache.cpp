@@ -9,6 +9,7 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "image/exr.h"
+#include "image/labelled.h"
 #include "image/noise_floor.h"
 
 namespace vsglbench {
@@ -27,13 +28,22 @@ std::string image_hash(const ReferenceResult& r) {
   return hasher.array(r.mask).hex();
 }
 
-void store(const ReferenceResult& r, const ReferenceParameters& p) {
+void store(const Scene& scene, const ReferenceResult& r, const ReferenceParameters& p) {
   ExrLayers layers;
   layers.width = r.mean.width;
   layers.height = r.mean.height;
   layers.colors = {{"", r.mean}, {"variance", r.variance}, {"half0", r.half[0]}, {"half1", r.half[1]}};
   layers.scalars = {{"mask", to_floats(r.mask)}};
-  layers.attributes = {{"reference_hash", r.hash}};
+  layers.attributes = {
+      {"content",
+       "indirect radiance, ray-traced reference; variance: of the mean; half0, half1: means of the even and "
+       "of the odd batches; mask: 1 where the camera sees a surface"},
+      {"units", radiance_labels().at("units")},
+      {"scene", scene.name},
+      {"sceneHash", scene.hash},
+      {"seed", fmt::format("{}", p.seed)},
+      {"samples", fmt::format("{}", r.samples)},
+      {"reference_hash", r.hash}};
   write_exr(cache_file(r.hash, ".exr"), layers);
   const Json meta = {{"hash", r.hash},
                      {"images", image_hash(r)},
@@ -108,7 +118,7 @@ ReferenceResult load_or_compute(const Scene& scene, const std::string& hash,
   if (cached) return *std::move(cached);
   ReferenceResult fresh = compute();
   try {
-    store(fresh, parameters);
+    store(scene, fresh, parameters);
   } catch (const std::exception& e) {
     log_warning("the reference of {} can't be cached: {}", scene.name, e.what());
   }

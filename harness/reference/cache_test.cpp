@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "image/exr.h"
 #include "reference/test_scenes.h"
 
 namespace vsglbench {
@@ -66,6 +67,17 @@ void expect_same(const ReferenceResult& a, const ReferenceResult& b) {
 TEST_F(ReferenceCache, ASecondCallReadsWhatTheFirstWrote) {
   const ReferenceResult first = get(false);
   expect_same(get(true), first);
+}
+
+TEST_F(ReferenceCache, AFileSaysWhatItHolds) {
+  const ReferenceResult r = get(false);
+  const auto said = read_exr_layers(file(".exr")).attributes;
+  EXPECT_EQ(said.at("reference_hash"), r.hash);
+  EXPECT_EQ(said.at("scene"), scene_.name);
+  EXPECT_EQ(said.at("sceneHash"), scene_.hash);
+  EXPECT_EQ(said.at("samples"), std::to_string(r.samples));
+  EXPECT_NE(said.at("units").find("W/(sr m^2)"), std::string::npos);
+  EXPECT_NE(said.at("content").find("half0"), std::string::npos);
 }
 
 TEST_F(ReferenceCache, TruncatedOrAlteredFilesAreComputedAnew) {

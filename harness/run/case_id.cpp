@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include "base/json_number.h"
+
 namespace vsglbench {
 namespace {
 
@@ -11,9 +13,13 @@ std::string canonical(const Json& value) {
   return value.is_number() ? fmt::format("{}", value.get<double>()) : value.dump();
 }
 
-// "vis=exact": short, since it becomes part of a file's name.
-std::string text_of(const Setting& s) {
-  std::string text = s.value.is_string() ? s.value.get<std::string>() : s.value.dump();
+// "vis=exact": short, since it becomes part of a file's name. Of an integer 16.0 is 16; other numbers keep
+// the spelling that the config gives them.
+std::string text_of(const Setting& s, const Json& parameters) {
+  const auto resolved = parameters.find(s.key);
+  const Json value =
+      resolved != parameters.end() && resolved->is_number_integer() ? with_integers(s.value) : s.value;
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   std::ranges::replace(text, '/', '-');  // that of "papers/mfis16"
   return fmt::format("{}={}", s.label, text);
 }
@@ -39,7 +45,7 @@ void name_cases(std::vector<NamedCase>* cases) {
     for (const Setting& s : n.settings) {
       const auto all = values.find({n.c.method, s.key});
       if (!s.named && (all == values.end() || all->second.size() < 2)) continue;
-      names += (names.empty() ? "" : ",") + text_of(s);
+      names += (names.empty() ? "" : ",") + text_of(s, n.c.parameters);
     }
     n.c.id = n.c.method + "/" + names;
   }

@@ -29,6 +29,22 @@ TEST_F(ConfigTest, IdsNameTheKeysInWhichTwoEntriesOfAMethodDiffer) {
                                              "cornell/mfis/N=16,rsm=16,vis=exact,K=1.0"}));
 }
 
+// 16.0 is the integer 16 where an integer is wanted, in an id as in a report.
+TEST_F(ConfigTest, IdsNameIntegersWithoutAFraction) {
+  config_["N"] = 16.0;
+  config_["rsm"] = {16, 32.0};
+  config_["methods"] = {{{"method", "mfis"}, {"progressive", {1, 2.0}}, {"K", {1.0, 2}}}};
+  std::string all;
+  for (const std::string& id : ids()) all += id + "\n";
+  EXPECT_TRUE(contains(all, "mfis/N=16,rsm=16,"));
+  EXPECT_TRUE(contains(all, ",rsm=32,"));
+  EXPECT_TRUE(contains(all, ",progressive=2"));
+  EXPECT_EQ(all.find("16.0"), std::string::npos) << all;
+  EXPECT_EQ(all.find("32.0"), std::string::npos) << all;
+  EXPECT_EQ(all.find("progressive=2.0"), std::string::npos) << all;
+  EXPECT_TRUE(contains(all, ",K=1.0")) << "a number that is no integer is spelt as the config has it";
+}
+
 // What a preset sets differs as well as what an entry does.
 TEST_F(ConfigTest, IdsNameTheKeysThatAPresetSets) {
   config_["methods"] = {{{"method", "mfis"}, {"preset", "author2024"}}, {{"method", "mfis"}}};

@@ -12,6 +12,7 @@
 #include "lights/moment_pictures.h"
 #include "method/registry.h"
 #include "report/environment.h"
+#include "report/image_labels.h"
 #include "run/case_run.h"
 #include "run/memory.h"
 #include "run/runner.h"
@@ -134,17 +135,25 @@ void LightsRun::draw(Frame& frame, const Scene& scene, const Case& c, const Ligh
   result->folder = fs::path(file_name(c.scene)) / file_name(c.method) /
                    file_name(c.id.substr(c.scene.size() + c.method.size() + 2));
   const fs::path folder = out_ / result->folder;
+  const auto labels = [&](const char* content) {
+    Labels out = image_labels(content, scene.name, scene.hash);
+    out.insert({{"case", c.id}, {"seed", fmt::format("{}", result->seed)}});
+    return out;
+  };
   const std::vector<std::string> captions = {
       c.id, fmt::format("seed {}, {} lights, {} without power", result->seed, result->lights, result->empty)};
   // The scratch memory is what generation left: nothing else has run since.
   if (const auto mips = read_mipmapped_rsm(frame.method_context(), lights.rsm, lights.rsm)) {
     write_png(folder / "moments.png",
-              draw_moments(*mips, {scene.origin, scene.bounds_min, scene.bounds_max}, captions));
+              draw_moments(*mips, {scene.origin, scene.bounds_min, scene.bounds_max}, captions),
+              labels("moments of the RSM, level by level"));
   }
   const auto fallback = lights.pdf.empty() ? reflectance(frame) : std::vector<float>();
   const View light = light_view(scene.light);
-  write_png(folder / "rsm.png", draw_on_rsm(lights, light, fallback, result->coverage, captions));
-  write_png(folder / "scene.png", draw_in_scene(lights, camera_view_of(frame, scene), captions));
+  write_png(folder / "rsm.png", draw_on_rsm(lights, light, fallback, result->coverage, captions),
+            labels("a case's lights over the RSM"));
+  write_png(folder / "scene.png", draw_in_scene(lights, camera_view_of(frame, scene), captions),
+            labels("a case's lights in the scene"));
   write_list(c, lights, scene, *result);
 }
 

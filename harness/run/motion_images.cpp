@@ -1,8 +1,6 @@
 #include "run/motion_images.h"
 
-#include <algorithm>
 #include <cstdlib>
-#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -10,6 +8,7 @@
 #include "image/exr.h"
 #include "image/flicker_picture.h"
 #include "image/temporal_profile.h"
+#include "report/image_labels.h"
 #include "run/scene_images.h"
 
 namespace fs = std::filesystem;
@@ -29,13 +28,6 @@ std::optional<uint64_t> number_of(const fs::path& file) {
       stem.size() >= 4 && stem.size() < 19 && stem.find_first_not_of("0123456789") == std::string::npos;
   if (!digits || (extension != ".exr" && extension != ".png")) return std::nullopt;
   return std::stoull(stem);
-}
-
-void write_frame(const fs::path& path, const Image& image, const Mask& mask, double rate) {
-  ExrLayers layers{image.width, image.height, {{"", image}}, {}, {{kRate, fmt::format("{}", rate)}}};
-  std::ranges::transform(mask, std::back_inserter(layers.scalars["A"]),
-                         [](uint8_t m) { return m ? 1.f : 0.f; });
-  write_exr(path, layers);
 }
 
 }  // namespace
@@ -78,12 +70,19 @@ std::string reference_frames_folder(const Case& c) {
                      c.frame.visibility == Visibility::none ? "-without-occlusion" : "");
 }
 
+void MotionImages::write(const fs::path& folder, uint32_t frame, const Image& image, const Mask& mask,
+                         Labels labels) const {
+  labels.merge(radiance_image_labels("a frame of an animation", scene_.name, scene_.hash));
+  labels.insert({{"frame", fmt::format("{}", frame)}, {kRate, fmt::format("{}", scene_.animation.rate)}});
+  write_exr(file_of(out_ / folder, frame), image, mask, labels);
+}
+
 void MotionImages::write(const Case& c, uint32_t frame, const CaseRun::Look& look) const {
-  write_frame(file_of(out_ / frames_folder(c), frame), look.image, look.mask, rate_);
+  write(frames_folder(c), frame, look.image, look.mask, {{"case", c.id}, {"seed", "0"}});
 }
 
 void MotionImages::write(const Case& c, uint32_t frame, const ReferenceResult& reference) const {
-  write_frame(file_of(out_ / reference_frames_folder(c), frame), reference.mean, reference.mask, rate_);
+  write(reference_frames_folder(c), frame, reference.mean, reference.mask, {{"reference", reference.hash}});
 }
 
 std::map<std::string, std::string> MotionImages::draw(const Case& c, const DerivativeFlickerMeter& meter,
@@ -101,13 +100,20 @@ std::map<std::string, std::string> MotionImages::draw(const Case& c, const Deriv
                           .exposure = exposure,
                           .mean_reference = found->mean_reference});
   TemporalProfile profile({.title = title, .row = crop.y + crop.height / 2, .exposure = exposure});
-  write_apng(out_ / (stem + ".flicker.png"), frames, rate_, [&](uint32_t frame) {
+  const auto labels = [&](const char* content) {
+    Labels out = image_labels(content, scene_.name, scene_.hash);
+    out.insert({{"case", title}, {"seed", "0"}});
+    return out;
+  };
+  const auto draw_frame = [&](uint32_t frame) {
     const MotionFrame x = read_motion_frame(out_ / frames_folder(c), frame);
     const Image r = read_motion_frame(out_ / reference_frames_folder(c), frame).image;
     profile.add(x.image, r);
     return picture.draw(x.image, r, x.mask);
-  });
-  write_png(out_ / (stem + ".profile.png"), profile.draw());
+  };
+  write_apng(out_ / (stem + ".flicker.png"), frames, scene_.animation.rate, draw_frame,
+             labels("the crop that flickers most, beside the reference"));
+  write_png(out_ / (stem + ".profile.png"), profile.draw(), labels("a row of pixels over time"));
   return {{"flicker", stem + ".flicker.png"},
           {"profile", stem + ".profile.png"},
           {"frames", frames_folder(c)},

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "image/flicker.h"
+#include "image/labelled.h"
 #include "run/case_run.h"
 
 namespace vsglbench {
@@ -27,8 +28,8 @@ MotionFrame read_motion_frame(const std::filesystem::path& folder, uint32_t fram
 
 class MotionImages {
  public:
-  // Of the animation's `rate` frames a second.
-  MotionImages(std::filesystem::path out, double rate) : out_(std::move(out)), rate_(rate) {}
+  // `scene` outlives this, and is in the frame that is written.
+  MotionImages(std::filesystem::path out, const Scene& scene) : out_(std::move(out)), scene_(scene) {}
 
   // One frame of seed 0, and of its reference. Throws Error(output).
   void write(const Case& c, uint32_t frame, const CaseRun::Look& look) const;
@@ -42,8 +43,11 @@ class MotionImages {
                                           float exposure) const;
 
  private:
+  void write(const std::filesystem::path& folder, uint32_t frame, const Image& image, const Mask& mask,
+             Labels labels) const;
+
   std::filesystem::path out_;
-  double rate_;
+  const Scene& scene_;
 };
 
 // Where the frames of a case lie, relative to the report's folder; of its references, those of every case

@@ -10,7 +10,7 @@
 
 #include "image/exr.h"
 #include "image/flicker.h"
-#include "image/png.h"
+#include "image/labelled.h"
 #include "run/frame_export.h"
 #include "run/motion_fixture.h"
 #include "run/motion_images.h"
@@ -77,6 +77,17 @@ TEST_F(MotionTest, TheReportHasTheFlickerOfEveryFrame) {
   }
   for (const char* folder : {"frames", "reference_frames"})
     EXPECT_TRUE(fs::exists(out_ / cases[0].images.at(folder) / "0004.exr")) << folder;
+  // Every image says what it shows.
+  const auto frame = read_exr_layers(out_ / cases[0].images.at("frames") / "0004.exr").attributes;
+  const auto first = read_exr_layers(out_ / cases[0].images.at("frames") / "0000.exr").attributes;
+  EXPECT_EQ(frame.at("case"), cases[0].id);
+  EXPECT_EQ(frame.at("frame"), "4");
+  EXPECT_NE(frame.at("sceneHash"), first.at("sceneHash"));
+  EXPECT_TRUE(contains(frame.at("A"), "counts"));
+  EXPECT_TRUE(read_exr_layers(out_ / cases[0].images.at("reference_frames") / "0004.exr")
+                  .attributes.contains("reference"));
+  for (const char* picture : {"flicker", "profile"})
+    EXPECT_EQ(png_labels(read_text(out_ / cases[0].images.at(picture))).at("case"), cases[0].id) << picture;
 }
 
 TEST_F(MotionTest, FramesAreExported) {

@@ -15,6 +15,8 @@ namespace vsglbench {
 
 namespace {
 
+constexpr double kMostError = 0.5;  // of a mean that says something, relative
+
 // m².
 double surface_area(const Scene& scene) {
   double area = 0;
@@ -60,6 +62,27 @@ ReferenceInfo describe(const Scene& scene, const ReferenceResult& r) {
 }
 
 }  // namespace
+
+std::optional<std::string> doubt_about(const Scene& scene, const ReferenceResult& r) {
+  if (std::ranges::all_of(r.mean.pixels, [](const glm::vec3& v) { return v == glm::vec3(0); }))
+    throw fail(ErrorKind::case_failed, "{}: no indirect light reaches the view: the reference is black",
+               scene.name);
+  ReferenceInfo info;
+  describe_light(scene, r, &info);
+  if (info.light_ratio && *info.light_ratio < kNearlyBlack) {
+    return fmt::format(
+        "the reference is nearly black: its mean is {:.2g} of what the light's flux could give; another view "
+        "or light would tell more",
+        *info.light_ratio);
+  }
+  if (r.standard_error > kMostError) {
+    return fmt::format(
+        "hardly any light reaches the view: the reference's mean is known to {:.0f} % only; more samples, or "
+        "another view or light, would tell more",
+        100 * r.standard_error);
+  }
+  return std::nullopt;
+}
 
 std::string end_of_search(const ReferenceResult& result, const ReferenceParameters& p) {
   if (p.floor == 0) return "";
@@ -114,10 +137,7 @@ ReferenceResult References::obtain(const Case& c) {
   const Stopwatch watch;
   bool cached = false;
   ReferenceResult result = load_or_compute(scene_, p, &cached);
-  if (std::all_of(result.mean.pixels.begin(), result.mean.pixels.end(),
-                  [](const glm::vec3& v) { return v == glm::vec3(0); })) {
-    throw fail(ErrorKind::case_failed, "no indirect light reaches the view: the reference is black");
-  }
+  if (const auto doubt = doubt_about(scene_, result)) log_warning("{}: {}", scene_.name, *doubt);
   log_info(
       "{}: reference{} of {} samples{} {} ({}), noise floor {:.2f} % SMAPE, its mean known to {:.2f} %{}",
       scene_.name, p.occlusion ? "" : " without occlusion", result.samples, rounding_of(result, p),

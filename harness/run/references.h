@@ -19,6 +19,10 @@ std::string end_of_search(const ReferenceResult& result, const ReferenceParamete
 // " (100 asked for, rounded up to 16 equal batches)"; nothing where it is what was asked for, or a floor was.
 std::string rounding_of(const ReferenceResult& result, const ReferenceParameters& parameters);
 
+// Why a reference says little: it is nearly black (kNearlyBlack), or its mean is known to no better than a
+// half. Nothing where it says much. Throws Error(case_failed) where it is black.
+std::optional<std::string> doubt_about(const Scene& scene, const ReferenceResult& result);
+
 // Of the reference that a case is compared with.
 ReferenceParameters reference_parameters(const Config& config, const Case& c);
 

@@ -11,10 +11,9 @@
 #include "image/contact.h"
 #include "image/error_map.h"
 #include "image/exr.h"
-#include "image/labelled.h"
 #include "image/png.h"
 #include "reference/direct_light.h"
-#include "report/environment.h"
+#include "report/image_labels.h"
 
 namespace fs = std::filesystem;
 
@@ -41,15 +40,8 @@ std::string write_pair(const fs::path& out, const std::string& stem, const Image
   return stem + ".exr";
 }
 
-// What every image of a scene says of itself.
 Labels scene_labels(const SceneReport& scene, const std::string& content) {
-  const GitState git = build_git();
-  Labels labels = radiance_labels();
-  labels.insert({{"content", content},
-                 {"scene", scene.name},
-                 {"sceneHash", scene.hash},
-                 {"software", "vsglbench, commit " + git.commit + (git.dirty ? " and changes" : "")}});
-  return labels;
+  return radiance_image_labels(content, scene.name, scene.hash);
 }
 
 Labels labels_of(const SceneReport& scene, const ReferenceResult& reference) {
@@ -267,7 +259,8 @@ void SceneImages::write_sheet(const std::vector<CaseResult>& cases, const Refere
     remove_sheet(out_ / folder);
     for (size_t i = 0; i < pages.size(); ++i) {
       const std::string path = fmt::format("{}/{}.png", folder, page_name("contact", i, pages.size()));
-      write_png(out_ / path, pages[i]);
+      write_png(out_ / path, pages[i],
+                image_labels("reference, images and error maps of every case", scene_->name, scene_->hash));
       if (i == 0) scene_->contact = path;
       log_info("contact sheet: {}", (out_ / path).string());
     }

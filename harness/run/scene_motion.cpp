@@ -15,7 +15,7 @@ SceneMotion::SceneMotion(Scene& scene, Stage& stage, GroundTruth& truth, const C
       stage_(stage),
       truth_(truth),
       config_(config),
-      images_(std::move(out), scene.animation.rate),
+      images_(std::move(out), scene),
       report_(report),
       observer_(observer),
       wall_(wall) {}

@@ -153,7 +153,11 @@ void read_alpha(GltfFile* file, const tinygltf::Material& from, Material* to) {
   }
 }
 
-// How the textures of a material lie on a mesh. All have the coordinates of the first: a vertex has one pair.
+// How the textures of a material lie on a mesh. All have the coordinates of the first. A vertex has one pair,
+// to which the transform is applied as it is read, so that a surface costs no more for it: of its own, each
+// texture would have to have a pair a vertex, or a matrix a material, in the vertex format, the material
+// records, four shaders, the ray tracer, masks and tangents, for what few files have. A texture that lies
+// elsewhere is named.
 class MaterialUvs {
  public:
   void add(GltfFile* file, const UvMapping& mapping, const std::string& material, const char* slot) {

@@ -4,11 +4,9 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
-#include <set>
 
-#include "scene/found_view.h"
-#include "scene/gltf_views.h"
 #include "scene/scene_objects.h"
+#include "scene/scene_writer.h"
 
 namespace fs = std::filesystem;
 
@@ -16,9 +14,8 @@ namespace vsglbench {
 namespace {
 
 constexpr double kDegree = 180 / std::numbers::pi;
-constexpr double kPointCone = 120;     // degrees, of a point light's spot
-constexpr size_t kMostMaterials = 64;  // that `about` lists
-constexpr size_t kMostViews = 16;      // of a file's cameras, and of its lights
+constexpr double kPointCone = 120;  // degrees, of a point light's spot
+constexpr size_t kMostViews = 16;   // of a file's cameras, and of its lights
 
 // Letters, digits, '_', '.' and '-' stay, anything else becomes '_'.
 std::string plain(const std::string& text, const std::string& otherwise) {
@@ -29,27 +26,10 @@ std::string plain(const std::string& text, const std::string& otherwise) {
   return out.empty() ? otherwise : out;
 }
 
-// A number of so many decimals, without the digits that binary adds.
-double rounded(double value, int decimals) {
-  return std::stod(fmt::format("{:.{}f}", value, std::max(0, decimals))) + 0.0;
-}
-
-Json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-// Of the scenery behind a lone object.
-Json quad(const std::string& name, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
-          const glm::dvec3& color) {
-  return {{"name", name},
-          {"quad", {{"corner", numbers(corner)}, {"u", numbers(u)}, {"v", numbers(v)}}},
-          {"material", {{"base_color", numbers(color)}, {"roughness", 1}, {"specular", 0}}}};
-}
-
 class Maker {
  public:
   Maker(const fs::path& path, const Scene& geometry, const std::string& file)
-      : geometry_(geometry), subject_(static_cast<uint32_t>(geometry.triangles.size())) {
-    // Four digits of the scene's size.
-    decimals_ = 3 - static_cast<int>(std::floor(std::log10(std::max(1e-30f, geometry.diagonal()))));
+      : geometry_(geometry), subject_(static_cast<uint32_t>(geometry.triangles.size())), write_(geometry) {
     file_ = gltf_views(path);
     out_.notes = file_.notes;
     out_.json = {{"name", model_name(path)},
@@ -64,17 +44,13 @@ class Maker {
     std::string standard = own ? default_ : "";
     if (!own && !find(tree)) find_with_scenery();
     if (!own) standard = "found";
-    out_.json["about"] = about();
+    out_.json["about"] = write_.about(out_.notes);
     out_.json["default_view"] = standard;
     out_.json["views"] = views_;
     return std::move(out_);
   }
 
  private:
-  glm::dvec3 world(const glm::vec3& p) const { return glm::dvec3(p) + geometry_.origin; }
-  Json place(const glm::dvec3& p) const {
-    return {rounded(p.x, decimals_), rounded(p.y, decimals_), rounded(p.z, decimals_)};
-  }
   void note(const std::string& text) { out_.notes.push_back(text); }
 
   // A view of a name that no other has.
@@ -86,7 +62,6 @@ class Maker {
   }
 
   // --- What the file brings
-  // ---------------------------------------------------------------------------------
 
   Shot shot_of(const GltfCamera* camera, const GltfLight* light) const {
     Shot shot;
@@ -119,7 +94,7 @@ class Maker {
                            GltfLight light) {
     light.fov = kPointCone;
     glm::dvec3 sum(0);
-    const auto seen = points_seen(tree, camera_view(camera, 4096 * 16 / 9, 4096), 16, 9);
+    const auto seen = points_seen(tree, view_of(camera), 16, 9);
     for (const ShotPoint& p : seen) sum += glm::dvec3(p.position) + origin;
     const glm::dvec3 way =
         seen.empty() ? glm::dvec3(camera.direction) : sum / static_cast<double>(seen.size()) - light.position;
@@ -128,30 +103,6 @@ class Maker {
     light.up = glm::normalize(axis - glm::dot(axis, light.direction) * light.direction);
     light.type = GltfLight::Type::spot;
     return light;
-  }
-
-  static Json json_of(const GltfCamera& c) {
-    return {{"eye", numbers(c.eye)},
-            {"direction", numbers(c.direction)},
-            {"up", numbers(c.up)},
-            {"vfov", c.vfov}};
-  }
-  static Json json_of(const GltfLight& l) {
-    if (l.type == GltfLight::Type::sun) {
-      Json sun = {
-          {"direction", numbers(l.direction)}, {"up", numbers(l.up)}, {"irradiance", numbers(l.power)}};
-      if (l.half_extent) {
-        sun["centre"] = numbers(l.position);
-        sun["half_extent"] = {l.half_extent->x, l.half_extent->y};
-      }
-      return {{"sun", sun}};
-    }
-    return {{"spot",
-             {{"position", numbers(l.position)},
-              {"direction", numbers(l.direction)},
-              {"up", numbers(l.up)},
-              {"fov", l.fov},
-              {"intensity", numbers(l.power)}}}};
   }
 
   void add_file_view(const TriangleTree& tree, const std::string& name, const GltfCamera& camera,
@@ -211,7 +162,7 @@ class Maker {
     note(fmt::format("the file has no light: a spot was found for its camera '{}'", camera.name));
     add(name, {{"description", fmt::format("camera '{}' of the file, with a found spot", camera.name)},
                {"camera", json_of(camera)},
-               {"light", json_of(*found).at("light")}});
+               {"light", write_.view_of(*found).at("light")}});
   }
 
   // The file's light, with a found camera.
@@ -232,50 +183,26 @@ class Maker {
     note(fmt::format("the file has no camera: a view was found for its light '{}'", light.name));
     add(plain(light.name, fmt::format("light-{}", index)),
         {{"description", fmt::format("light '{}' of the file, with a found camera", light.name)},
-         {"camera", json_of(*found).at("camera")},
+         {"camera", write_.view_of(*found).at("camera")},
          {"light", json_of(light)}});
   }
 
   // --- What is found
-  // ----------------------------------------------------------------------------------------
 
   ShotRays fine() const { return {.image = 20, .light = 20, .links = 4, .subject_triangles = subject_}; }
 
-  Json json_of(const FoundView& found) const {
-    const Camera& c = found.shot.camera;
-    const Light& l = found.shot.light;
-    const auto metres = static_cast<float>(std::max(found.measure.depth, 1e-3 * geometry_.diagonal()));
-    const auto reach = std::max(static_cast<float>(found.measure.nearest), 1e-3f * geometry_.diagonal());
-    return {
-        {"description",
-         fmt::format(
-             "found from the bounds: {:.0f} % of the lit surface is seen, indirect light reaches {:.0f} % "
-             "of the picture's surfaces",
-             100 * found.measure.lit_seen, 100 * found.measure.reached)},
-        {"camera",
-         {{"eye", place(world(c.position))},
-          {"target", place(world(c.position + metres * c.direction))},
-          {"vfov", std::round(c.vfov * kDegree)}}},
-        {"light",
-         {{"spot",
-           {{"position", place(world(l.position))},
-            {"target", place(world(l.position + reach * l.direction))},
-            {"fov", std::round(l.fov * kDegree)},
-            {"intensity", std::stod(fmt::format("{:.2g}", l.power.x))}}}}}};
-  }
-
-  // A view of the geometry as it is.
+  // A view of the geometry as it is, where it lights itself.
   bool find(const TriangleTree& tree) {
     const auto found = find_view(tree);
-    if (!found || !is_good(found->measure)) return false;
+    if (!found || !is_good(found->measure, found->inside ? WantedShot{} : kWantedOfLoneObject)) return false;
     note("a view and a spot were found from the bounds of the geometry");
-    add("found", json_of(*found));
+    add("found", write_.view_of(*found));
     return true;
   }
 
   // A view of the geometry on a floor between two walls.
   void find_with_scenery() {
-    out_.json["objects"] = scenery();
+    out_.json["objects"] = write_.scenery();
     Scene staged = geometry_;
     add_objects(JsonDocument::parse(out_.json.dump(), "scenery", ErrorKind::scene), 1, &staged);
     const TriangleTree tree(staged);
@@ -293,57 +220,12 @@ class Maker {
         "added, and a view and a spot found");
     if (!is_good(found->measure))
       note("the found view is poor: little of the lit surface is seen, or little light comes back");
-    add("found", json_of(*found));
-  }
-
-  // Behind the object, to its left, and a little below it, so that no surfaces coincide.
-  Json scenery() const {
-    const glm::dvec3 low = world(geometry_.bounds_min), high = world(geometry_.bounds_max), side = high - low;
-    const double size = std::max({side.x, side.y, side.z, 1e-6 * glm::length(side)});
-    const double gap = 0.35 * size, x0 = low.x - gap, z0 = low.z - gap, y0 = low.y - 0.005 * size;
-    const double x1 = high.x + 0.9 * size, z1 = high.z + 0.9 * size, y1 = high.y + 0.6 * size;
-    const auto at = [&](double x, double y, double z) {
-      return glm::dvec3(rounded(x, decimals_), rounded(y, decimals_), rounded(z, decimals_));
-    };
-    const glm::dvec3 corner = at(x0, y0, z0), far = at(x1, y1, z1), reach = far - corner;
-    const auto along = [&](int axis) {
-      glm::dvec3 v(0);
-      v[axis] = rounded(reach[axis], decimals_);
-      return v;
-    };
-    const glm::dvec3 grey(0.7), red(0.65, 0.25, 0.2);
-    return Json::array({quad("floor", corner, along(2), along(0), grey),
-                        quad("back wall", corner, along(0), along(1), grey),
-                        quad("side wall", corner, along(1), along(2), red)});
-  }
-
-  // --- For the reader
-  // ---------------------------------------------------------------------------------------
-
-  Json about() const {
-    Json materials = Json::array();
-    std::set<uint32_t> used(geometry_.triangle_material.begin(), geometry_.triangle_material.end());
-    for (const uint32_t i : used) {
-      if (materials.size() == kMostMaterials) break;
-      const Material& m = geometry_.materials[i];
-      materials.push_back(
-          {{"name", m.name},
-           {"base_color",
-            {rounded(m.base_color.x, 4), rounded(m.base_color.y, 4), rounded(m.base_color.z, 4)}},
-           {"metallic", rounded(m.metallic, 4)},
-           {"roughness", rounded(m.roughness, 4)},
-           {"textured", m.base_color_texture >= 0}});
-    }
-    return {{"triangles", subject_},
-            {"unit", "1 length unit is 1 m, as glTF has it; change `unit` if the file's is another"},
-            {"bounds", {place(world(geometry_.bounds_min)), place(world(geometry_.bounds_max))}},
-            {"materials", materials},
-            {"notes", out_.notes}};
+    add("found", write_.view_of(*found));
   }
 
   const Scene& geometry_;
   uint32_t subject_;
-  int decimals_ = 3;
+  SceneWriter write_;
   GltfViews file_;
   ModelScene out_;
   Json views_ = Json::object();

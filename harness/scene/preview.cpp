@@ -19,14 +19,6 @@ constexpr uint32_t kMargin = 12, kLine = 22;
 constexpr double kText = 16;
 constexpr Ink kCameraInk{{86, 180, 233}, 1}, kLightInk{{240, 200, 40}, 1};
 
-bool sees(const TriangleTree& tree, const View& view, const glm::vec3& point) {
-  const auto uv = view.project(point);
-  if (!uv) return false;
-  glm::vec3 origin, direction;
-  view.ray(*uv, &origin, &direction);
-  return !tree.occluded(view.perspective ? view.position : origin, point);
-}
-
 struct Spotted {
   Surface surface;
   glm::vec3 to_viewer;

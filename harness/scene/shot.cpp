@@ -16,19 +16,6 @@ double share(size_t part, size_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-View camera_view_of(const Camera& camera, float aspect) {
-  return camera_view(camera, static_cast<uint32_t>(std::lround(aspect * kRows)), kRows);
-}
-
-// Whether a view sees a point: inside of its frame, and nothing before it.
-bool sees(const TriangleTree& tree, const View& view, const glm::vec3& point) {
-  const auto uv = view.project(point);
-  if (!uv) return false;
-  glm::vec3 origin, direction;
-  view.ray(*uv, &origin, &direction);
-  return !tree.occluded(view.perspective ? view.position : origin, point);
-}
-
 // Irradiance that a light alone would bring to a point, W/m².
 double direct_irradiance(const Light& light, const View& view, const ShotPoint& at) {
   const double power = luminance(light.power);
@@ -50,12 +37,26 @@ double transfer(const ShotPoint& from, const ShotPoint& to) {
 
 }  // namespace
 
+View view_of(const Camera& camera, float aspect) {
+  return camera_view(camera, static_cast<uint32_t>(std::lround(aspect * kRows)), kRows);
+}
+
+bool sees(const TriangleTree& tree, const View& view, const glm::vec3& point) {
+  const auto uv = view.project(point);
+  if (!uv) return false;
+  glm::vec3 origin, direction;
+  view.ray(*uv, &origin, &direction);
+  return !tree.occluded(view.perspective ? view.position : origin, point);
+}
+
 std::vector<ShotPoint> points_seen(const TriangleTree& tree, const View& view, uint32_t across,
                                    uint32_t down) {
   std::vector<ShotPoint> points;
   for (uint32_t y = 0; y < down; ++y) {
+    // By a golden section from row to row, or an upright pole would be between all columns.
+    const float shift = glm::fract(0.5f + 0.618034f * static_cast<float>(y));
     for (uint32_t x = 0; x < across; ++x) {
-      const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(across),
+      const glm::vec2 uv((static_cast<float>(x) + shift) / static_cast<float>(across),
                          (static_cast<float>(y) + 0.5f) / static_cast<float>(down));
       glm::vec3 origin, direction;
       view.ray(uv, &origin, &direction);
@@ -85,7 +86,7 @@ ShotMeasure measure_shot(const TriangleTree& tree, const Shot& shot, const std::
   std::ranges::nth_element(depths, depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2));
   m.depth = depths[depths.size() / 2];
 
-  const View light = light_view(shot.light), camera = camera_view_of(shot.camera, rays.aspect);
+  const View light = light_view(shot.light), camera = view_of(shot.camera, rays.aspect);
   const std::vector<ShotPoint> lit = points_seen(tree, light, rays.light, rays.light);
   m.lit = share(lit.size(), size_t(rays.light) * rays.light);
   if (lit.empty()) return m;
@@ -102,11 +103,12 @@ ShotMeasure measure_shot(const TriangleTree& tree, const Shot& shot, const std::
       luminance(glm::vec3(flux_density(shot.light, {0.5f, 0.5f}))) / (double(rays.light) * rays.light);
   const double spacing = 2.0 * light.extent.x / rays.light * (light.perspective ? m.nearest : 1.0);
   const double nearest_link = 1 / (std::numbers::pi * std::max(1e-30, spacing * spacing));
-  size_t directly = 0, reached = 0, at = 0;
+  size_t directly = 0, subject_directly = 0, reached = 0, at = 0;
   double direct = 0, indirect = 0;
   for (const ShotPoint& p : seen) {
     if (const double e = direct_irradiance(shot.light, light, p); e > 0 && sees(tree, light, p.position)) {
       ++directly;
+      subject_directly += on_subject(p);
       direct += e;
     }
     bool met = false;
@@ -123,6 +125,7 @@ ShotMeasure measure_shot(const TriangleTree& tree, const Shot& shot, const std::
     reached += met;
   }
   m.direct = share(directly, seen.size());
+  m.subject_direct = share(subject_directly, static_cast<size_t>(std::ranges::count_if(seen, on_subject)));
   m.reached = share(reached, seen.size());
   m.strength = direct > 0 ? indirect / direct : 0;
   return m;
@@ -130,8 +133,8 @@ ShotMeasure measure_shot(const TriangleTree& tree, const Shot& shot, const std::
 
 ShotMeasure measure_shot(const TriangleTree& tree, const Shot& shot, const ShotRays& rays) {
   const auto across = static_cast<uint32_t>(std::lround(rays.aspect * static_cast<float>(rays.image)));
-  return measure_shot(tree, shot,
-                      points_seen(tree, camera_view_of(shot.camera, rays.aspect), across, rays.image), rays);
+  return measure_shot(tree, shot, points_seen(tree, view_of(shot.camera, rays.aspect), across, rays.image),
+                      rays);
 }
 
 }  // namespace vsglbench

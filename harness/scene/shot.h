@@ -17,11 +17,12 @@ struct Shot {
 
 // Shares, from 0 to 1, of points that lie evenly over the image and over the light's square.
 struct ShotMeasure {
-  double seen = 0;      // of the image: where there is a surface
-  double subject = 0;   // of the seen points: on triangles before `subject_triangles`
-  double lit = 0;       // of the light's square: where there is a surface
-  double lit_seen = 0;  // of the lit points: those that the camera sees
-  double direct = 0;    // of the seen points: those that the light sees
+  double seen = 0;            // of the image: where there is a surface
+  double subject = 0;         // of the seen points: on triangles before `subject_triangles`
+  double lit = 0;             // of the light's square: where there is a surface
+  double lit_seen = 0;        // of the lit points: those that the camera sees
+  double direct = 0;          // of the seen points: those that the light sees
+  double subject_direct = 0;  // of the seen points on such triangles: those that the light sees
   double reached = 0;   // of the seen points: those that at least one of `links` lit points sends light to
   double strength = 0;  // mean irradiance of indirect light over the mean of direct light, on seen points
   double nearest = 0;   // metres from the light to the tenth of lit points that are nearest to it
@@ -44,7 +45,13 @@ struct ShotPoint {
   bool front = true;   // whether its corners run counter-clockwise from there, as from a solid's outside
 };
 
-// Points that a view sees through the middles of `across` × `down` cells of its image; cells without a
+// What a camera sees in a picture `aspect` times as wide as high.
+View view_of(const Camera& camera, float aspect = 16.0f / 9);
+
+// Whether a view sees a point: inside of its frame, and nothing before it.
+bool sees(const TriangleTree& tree, const View& view, const glm::vec3& point);
+
+// Points that a view sees through one place each of `across` × `down` cells of its image; cells without a
 // surface are left out.
 std::vector<ShotPoint> points_seen(const TriangleTree& tree, const View& view, uint32_t across,
                                    uint32_t down);

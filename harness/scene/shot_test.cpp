@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "base/file.h"
-#include "scene/found_view.h"
 #include "scene/scene_file.h"
 #include "scene/shot_fixture.h"
 
@@ -75,77 +75,28 @@ TEST(Shot, ALampThatLightsNothingOrACameraThatSeesNothingIsSaid) {
   const ShotMeasure m = measure_shot(tree, dark);
   EXPECT_EQ(m.lit, 0);
   EXPECT_EQ(m.reached, 0);
-  EXPECT_FALSE(is_good(m));
 }
 
-// --- found views ---
-
-class FoundViews : public ::testing::Test {
- protected:
-  // By the definition: some of what is lit is seen, and indirect light reaches the view.
-  static void expect_good(const Scene& scene, const FoundView& found) {
-    const test::BruteShot b = test::brute_shot(scene, found.shot, 18);
-    EXPECT_GT(b.lit_seen, 0.05);
-    EXPECT_GT(b.reached, 0.3);
-    EXPECT_GT(b.seen, 0.1);
-  }
-};
-
-TEST_F(FoundViews, OfAnOpenRoom) {
-  const Scene scene = test::built("cornell");
-  const TriangleTree tree(scene);
-  const auto found = find_view(tree);
-  ASSERT_TRUE(found);
-  EXPECT_TRUE(is_good(found->measure));
-  expect_good(scene, *found);
-}
-
-// No camera outside sees any indirect light.
-TEST_F(FoundViews, OfAClosedRoomAreInside) {
-  const Scene scene = test::room_with({{{0, 0, 0}, {8, 3, 5}}, {{2, 0, 1}, {3, 1, 2}}});
-  const TriangleTree tree(scene);
-  const auto found = find_view(tree);
-  ASSERT_TRUE(found);
-  EXPECT_TRUE(is_good(found->measure));
-  EXPECT_TRUE(found->inside);
-  expect_good(scene, *found);
-}
-
-// A camera or a light that is given stays.
-TEST_F(FoundViews, KeepWhatTheFileBrings) {
-  const Scene scene = load_scene("cornell", {data_root() / "scenes", {}});
-  const TriangleTree tree(scene);
-  const auto lit = find_view(tree, {.fixed_camera = scene.camera});
-  ASSERT_TRUE(lit);
-  EXPECT_EQ(lit->shot.camera.position, scene.camera.position);
-  expect_good(scene, *lit);
-  const auto seen = find_view(tree, {.fixed_light = scene.light});
-  ASSERT_TRUE(seen);
-  EXPECT_EQ(seen->shot.light.power, scene.light.power);
-  expect_good(scene, *seen);
-}
-
-// A solid, as a tetrahedron is: light that leaves it never comes back.
-TEST_F(FoundViews, OfAConvexObjectAreNone) {
-  Scene scene;
-  scene.name = "tetrahedron";
-  scene.materials.emplace_back();
-  Mesh mesh;
-  const glm::dvec3 p[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const glm::uvec3& t :
-       {glm::uvec3(0, 2, 1), glm::uvec3(0, 1, 3), glm::uvec3(0, 3, 2), glm::uvec3(1, 2, 3)}) {
-    const glm::vec3 n(glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x])));
-    const uint32_t first = mesh.add_vertex(p[t.x], n, {0, 0});
-    mesh.add_vertex(p[t.y], n, {1, 0});
-    mesh.add_vertex(p[t.z], n, {0, 1});
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  MeshCollector collector(&scene);
-  collector.add(std::move(mesh), 0);
-  collector.finish();
-  const TriangleTree tree(scene);
-  const auto found = find_view(tree);
-  EXPECT_FALSE(found && is_good(found->measure));
+// The slab covers the right half of the floor, and the lamp shines on its edge.
+TEST(Shot, TellsHowMuchOfTheSubjectIsLit) {
+  const Scene scene = test::room_with({{{-4, -1, -4}, {4, 4, 4}}, {{0, -1, -4}, {4, -0.9, 4}}});
+  Scene turned = scene;  // the slab first
+  std::ranges::rotate(turned.triangles, turned.triangles.begin() + 12);
+  const TriangleTree tree(turned);
+  Shot shot;
+  shot.camera = {.position = {0, 2, 3}, .direction = {0, -0.8f, -0.6f}, .up = {0, 0.6f, -0.8f}, .vfov = 1.2f};
+  shot.light = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, 1}, .fov = 0.5f};
+  const ShotMeasure m = measure_shot(tree, shot, {.subject_triangles = 12});
+  shot.light.fov = 3;
+  const ShotMeasure wide = measure_shot(tree, shot, {.subject_triangles = 12});
+  EXPECT_GT(m.subject, 0.1);
+  EXPECT_GT(wide.subject_direct, 0.9);
+  EXPECT_LT(m.subject_direct, 0.5);
+  EXPECT_GT(m.subject_direct, 0.02);
+  // A lamp that misses it.
+  shot.light.fov = 0.5f;
+  shot.light.position.x = -2;
+  EXPECT_EQ(measure_shot(tree, shot, {.subject_triangles = 12}).subject_direct, 0);
 }
 
 }  // namespace
