@@ -37,8 +37,10 @@ Container read_all(const fs::path& path) {
 
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> serial{0};
-  return path.parent_path() / fmt::format(".{}.{}.{}.tmp{}", path.stem().string(), ::getpid(), serial++,
-                                          path.extension().string());
+  char host[64] = {};  // two machines may write to one file system under one process number
+  ::gethostname(host, sizeof host - 1);
+  return path.parent_path() / fmt::format(".{}.{}.{}.{}.tmp{}", path.stem().string(), host, ::getpid(),
+                                          serial++, path.extension().string());
 }
 
 // A device or a pipe.

@@ -18,6 +18,7 @@
 #include "base/printable.h"
 #include "cli/command.h"
 #include "cli/scene_commands.h"
+#include "cli/sweep_command.h"
 #include "image/theme.h"
 #include "method/plugin.h"
 #include "method/registry.h"
@@ -90,7 +91,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 all cases ok, 1 a case failed, 2 bad usage, config, scene, plugin or output, 3 no "
       "usable "
       "device,\n4 'compare' found a regression, 5 'compare' refuses, or a pass may be slower and can't be "
-      "told.\n"
+      "told;\n'sweep': 5 shards or cases are missing, or refused, 6 a task stands on the wrong device.\n"
       "Example: vsglbench run configs/quick.json");
   bool quiet = false, verbose = false;
   app.add_flag("-q,--quiet", quiet, "only warnings, errors and the table");
@@ -112,6 +113,7 @@ int main(int argc, char** argv) {
   CommandResult result;
   add_run_command(app, arguments, &result);
   add_reproduce_command(app, arguments, &result);
+  add_sweep_command(app, &result);
   add_list_command(app, &result);
   add_reference_command(app, &result);
   add_new_scene_command(app);

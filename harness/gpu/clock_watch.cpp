@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <utility>
 
 // Names, values and signatures: NVIDIA, "NVML API Reference Guide", nvml.h.
@@ -83,6 +84,29 @@ ClockWatch::ClockWatch(const std::string& uuid, const std::string& library)
   const std::string name = nvml_uuid(uuid);
   if (name.empty() || !nvml.by_uuid || nvml.by_uuid(name.c_str(), &nvml.device) != kSuccess)
     missing_ = library + " does not know the device";
+}
+
+std::optional<std::string> nvml_uuid_of(unsigned index, const std::string& library) {
+  void* const handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) return std::nullopt;
+  const auto init = reinterpret_cast<int (*)()>(::dlsym(handle, "nvmlInit_v2"));
+  const auto shutdown = reinterpret_cast<int (*)()>(::dlsym(handle, "nvmlShutdown"));
+  const auto by_index =
+      reinterpret_cast<int (*)(unsigned, Handle*)>(::dlsym(handle, "nvmlDeviceGetHandleByIndex_v2"));
+  const auto uuid_of =
+      reinterpret_cast<int (*)(Handle, char*, unsigned)>(::dlsym(handle, "nvmlDeviceGetUUID"));
+  char text[96] = {};
+  Handle device = nullptr;
+  const bool started = init && init() == kSuccess;
+  const bool told = started && by_index && uuid_of && by_index(index, &device) == kSuccess &&
+                    uuid_of(device, text, sizeof text - 1) == kSuccess;
+  if (started && shutdown) shutdown();
+  ::dlclose(handle);
+  if (!told) return std::nullopt;
+  std::string hex;  // without "GPU-" and dashes
+  for (const char* c = std::strchr(text, '-'); c && *c; ++c)
+    if (*c != '-') hex += *c;
+  return hex;
 }
 
 ClockWatch::~ClockWatch() = default;

@@ -37,6 +37,11 @@ class ClockWatch {
   std::string missing_;
 };
 
+// The UUID, as DeviceInfo has it, of the GPU that NVML counts so: in the order of the bus, as
+// CUDA_VISIBLE_DEVICES of an engine such as Slurm does. Nothing without the library, or for a number that it
+// has no GPU of.
+std::optional<std::string> nvml_uuid_of(unsigned index, const std::string& library = "libnvidia-ml.so.1");
+
 // The names of the bits of NVML's "clocks throttle reasons", but for an idle GPU and for clocks that somebody
 // has set.
 std::vector<std::string> throttle_reasons(uint64_t bits);

@@ -30,6 +30,12 @@ TEST(ClockWatch, ADeviceThatItDoesNotKnowHasNoReadings) {
   }
 }
 
+TEST(ClockWatch, TellsTheUuidOfAnIndex) {
+  EXPECT_EQ(nvml_uuid_of(3, VSGLBENCH_MADE_NVML), kDevice);
+  EXPECT_FALSE(nvml_uuid_of(0, VSGLBENCH_MADE_NVML));
+  EXPECT_FALSE(nvml_uuid_of(3, "libabsent.so.1"));
+}
+
 TEST(ClockWatch, NothingDependsOnTheLibrary) {
   const ClockWatch watch(kDevice, "libabsent.so.1");
   EXPECT_FALSE(watch.read());

@@ -9,6 +9,15 @@ int nvmlDeviceGetHandleByUUID(const char* uuid, void** device) {
   *device = &made;
   return std::strcmp(uuid, "GPU-00112233-4455-6677-8899-aabbccddeeff") == 0 ? 0 : 6;  // not found
 }
+int nvmlDeviceGetHandleByIndex_v2(unsigned index, void** device) {
+  static int made;
+  *device = &made;
+  return index == 3 ? 0 : 2;  // invalid argument
+}
+int nvmlDeviceGetUUID(void*, char* uuid, unsigned length) {
+  std::strncpy(uuid, "GPU-00112233-4455-6677-8899-aabbccddeeff", length);
+  return 0;
+}
 int nvmlDeviceGetClockInfo(void*, unsigned type, unsigned* mhz) {
   *mhz = type == 1 ? 1980 : 3201;
   return 0;

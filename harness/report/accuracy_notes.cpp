@@ -36,14 +36,15 @@ std::string short_name(const CaseResult& c, const std::vector<const CaseResult*>
 }
 
 void note_ranks(const std::vector<const CaseResult*>& cases, std::vector<std::string>* notes) {
-  std::vector<std::string> pairs;
+  std::vector<std::string> pairs;  // the first ones
+  size_t count = 0;
   for (size_t i = 0; i < cases.size(); ++i) {
     for (size_t k = i + 1; k < cases.size(); ++k) {
       const Accuracy *a = &*cases[i]->accuracy, *b = &*cases[k]->accuracy;
       if (a->reference.hash != b->reference.hash) continue;
       const int smape = ranks(a->smape, b->smape, a->reference.noise_floor_smape);
       const int rmse = ranks(a->rmse, b->rmse, a->reference.noise_floor_rmse.value_or(0));
-      if (smape * rmse >= 0) continue;
+      if (smape * rmse >= 0 || ++count > kMostPairs) continue;
       const CaseResult &x = smape < 0 ? *cases[i] : *cases[k], &y = smape < 0 ? *cases[k] : *cases[i];
       pairs.push_back(fmt::format("{} before {} (SMAPE {} and {} %, RMSE {} and {})", short_name(x, cases),
                                   short_name(y, cases), told(x.accuracy->smape), told(y.accuracy->smape),
@@ -52,8 +53,8 @@ void note_ranks(const std::vector<const CaseResult*>& cases, std::vector<std::st
   }
   if (pairs.empty()) return;
   std::string text = "SMAPE ranks " + pairs[0];
-  for (size_t i = 1; i < std::min(pairs.size(), kMostPairs); ++i) text += ", " + pairs[i];
-  if (pairs.size() > kMostPairs) text += fmt::format(" and {} more pairs", pairs.size() - kMostPairs);
+  for (size_t i = 1; i < pairs.size(); ++i) text += ", " + pairs[i];
+  if (count > kMostPairs) text += fmt::format(" and {} more pairs", count - kMostPairs);
   notes->push_back(text + "; RMSE ranks them the other way round");
 }
 

@@ -68,7 +68,8 @@ void write_report(const fs::path& path, const Report& report) {
   } catch (const Json::exception& e) {  // text that is not UTF-8
     throw fail(ErrorKind::output, "{}: cannot be written: {}", path.string(), e.what());
   }
-  write_text(path, text + "\n");
+  text += '\n';  // no second text of hundreds of megabytes
+  write_text(path, text);
 }
 
 Report read_report(const fs::path& path) {

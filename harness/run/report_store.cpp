@@ -156,7 +156,7 @@ void ReportStore::forget_notes(const Report& report) {
 void ReportStore::close() {
   journal_.remove();
   std::error_code ec;
-  std::vector<fs::path> left;  // as write_atomically() names them: .NAME.PID.SERIAL.tmp.EXTENSION
+  std::vector<fs::path> left;  // as write_atomically() names them: .NAME.HOST.PID.SERIAL.tmp.EXTENSION
   for (fs::recursive_directory_iterator at(folder_ / "images", ec), end; !ec && at != end; at.increment(ec)) {
     const std::string name = at->path().filename().string();
     if (name.starts_with('.') && name.find(".tmp") != std::string::npos) left.push_back(at->path());

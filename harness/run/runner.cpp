@@ -18,6 +18,7 @@
 #include "run/report_store.h"
 #include "run/scene_news.h"
 #include "run/scene_workers.h"
+#include "run/sources.h"
 
 namespace fs = std::filesystem;
 
@@ -139,16 +140,6 @@ void take_noted(const std::vector<Json>& noted, const std::string& scene, SceneO
   if (damaged > 0) log_warning("{}: {} damaged lines of the journal are passed over", scene, damaged);
 }
 
-// The hash of everything that is compiled at run time, and of the methods' plugins.
-std::string sources_hash(const Config& config) {
-  std::set<std::string> methods;
-  for (const Case& c : config.cases) methods.insert(c.method);
-  Hasher hasher;
-  hasher.text(kernel_sources_hash());
-  for (const auto& name : methods) hasher.text(plugin_hash(find_method(name)));
-  return hasher.hex();
-}
-
 Report fresh_report(const RunOptions& options, const Config& config, const DeviceReport& device) {
   Report report;
   report.created = utc_now();
@@ -182,6 +173,15 @@ WorkerOptions worker_options(const RunOptions& options, const Config& config, Re
 }
 
 }  // namespace
+
+std::string sources_hash(const Config& config) {
+  std::set<std::string> methods;
+  for (const Case& c : config.cases) methods.insert(c.method);
+  Hasher hasher;
+  hasher.text(kernel_sources_hash());
+  for (const auto& name : methods) hasher.text(plugin_hash(find_method(name)));
+  return hasher.hex();
+}
 
 fs::path assets_directory(const fs::path& given) {
   if (!given.empty()) return given;
