@@ -53,7 +53,8 @@ function entry(file, number) {
 const plain = (text) => [...String(text)].map((c) => (c < ' ' ? ' ' : `&#${c.codePointAt(0)};`)).join('');
 
 const entries = lines(join(out, 'files.txt')).map((file, i) => entry(file, i + 1));
-const status = (e) => (e.cases > 0 ? `${e.ok} of ${e.cases} ok` : `exit code ${e.code}`);
+const status = (e) => (e.code === 124 ? 'not done after 300 s' : e.cases > 0 ? `${e.ok} of ${e.cases} ok`
+  : `exit code ${e.code}`);
 
 const cell = (text) => String(text).replace(/[\r\n]+/g, ' ').replace(/[|<>&`]/g, (c) => `\\${c}`);
 const rows = entries.map((e) => [e.name, status(e), e.seconds.toFixed(1), e.triangles, e.smape, e.view,

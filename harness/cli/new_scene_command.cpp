@@ -62,8 +62,9 @@ void make(const NewSceneOptions& options) {
             image_labels("preview of camera and light", scene.name, scene.hash));
   for (const std::string& warning : scene.warnings) log_warning("{}", printable(warning));
   for (const std::string& note : made.notes) fmt::print("{}\n", printable(note));
-  fmt::print("{}\n{}\nnext: vsglbench view {}; vsglbench run --scene {}\n", file.string(),
-             (options.folder / "preview.png").string(), options.folder.string(), options.folder.string());
+  const std::string folder = printable(options.folder.string());
+  fmt::print("{0}/scene.json\n{0}/preview.png\nnext: vsglbench view {0}; vsglbench run --scene {0}\n",
+             folder);
 }
 
 }  // namespace

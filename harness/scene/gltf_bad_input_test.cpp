@@ -40,6 +40,20 @@ TEST_F(GltfBadInput, TruncatedText) {
   }
 }
 
+TEST_F(GltfBadInput, WhatIsNoGltfAtAllIsNamed) {
+  const auto said = [&](const char* name, const std::string& bytes) {
+    write(name, bytes);
+    return problem_of((folder_ / name).string());
+  };
+  EXPECT_TRUE(contains(said("a.glb", ""), "is empty"));
+  EXPECT_TRUE(contains(said("a.GLB", "<!doctype html>"), "doesn't begin with 'glTF'"));
+  for (const char* name : {"a.glb", "a.gltf"})
+    EXPECT_TRUE(contains(said(name, "version https://git-lfs.github.com/spec/v1\noid"), "git lfs pull"));
+  // JSON under the other name loads.
+  write_gltf();
+  EXPECT_EQ(said("text.glb", json_.dump()), "");
+}
+
 TEST_F(GltfBadInput, GlbTruncatedAtEveryLength) {
   const std::string bytes = glb_bytes();
   for (size_t length = 0; length < bytes.size(); ++length) {

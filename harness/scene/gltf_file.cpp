@@ -1,6 +1,7 @@
 #include "scene/gltf_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -52,6 +53,21 @@ Chunks binary_chunks(const GltfFile& file, const std::vector<uint8_t>& bytes) {
   return chunks;
 }
 
+// What is neither a .glb nor text, in words; a parser of JSON would name its first byte only. What is a
+// download gone wrong, mostly.
+void refuse_what_is_neither(const GltfFile& file, const std::vector<uint8_t>& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<size_t>(bytes.size(), 64));
+  if (text.starts_with("version https://git-lfs"))
+    throw file.error("is a pointer of Git LFS, not the file itself; git lfs pull fetches it");
+  std::string ending = file.path.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".glb" || text.find('{') != std::string_view::npos) return;
+  if (bytes.empty()) throw file.error("is empty");
+  throw file.error("is no .glb: it doesn't begin with 'glTF', and is no JSON either");
+}
+
 }  // namespace
 
 void GltfFile::warn(const std::string& message) {
@@ -80,6 +96,7 @@ GltfFile read_gltf(const fs::path& path) {
   }
   if (bytes.size() > 0xffffffffu) throw file.error("is larger than 4 GiB");
   const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+  if (!binary) refuse_what_is_neither(file, bytes);
   const Chunks chunks = binary ? binary_chunks(file, bytes)
                                : Chunks{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}};
   // This parse gives line-exact errors and bounds the nesting before another recurses into it.
