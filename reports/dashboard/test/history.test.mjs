@@ -123,6 +123,12 @@ test("the mean of a method takes steps with its series, none where one begins la
   assert.equal(await since(5 / 29), "0 %");
   assert.equal(await since(12 / 29), "+6.6 %"); // one of three by 1.21: the cube root of it
   assert.equal(await since(1), "+6.6 %");
+  // Nor does the one that begins with the step take part in it.
+  const joined = structuredClone(history);
+  for (const name of ["value", "lo", "hi"]) joined.series[3].values.method[name].fill(40, 10, 15);
+  const q = await page(joined, { hash: "&hi.l=mean" });
+  await hover(q, q.locator(".history-frame").first(), 12 / 29);
+  assert.match(await tip(q).innerText(), /since the first \+6\.6 %/);
   await hover(p, frame, 10 / 29);
   assert.match(await tip(p).innerText(), /changed most: mfis N=1 \+21 %/);
 });
