@@ -14,6 +14,22 @@ export function decode(bytes) {
   return { width: exr.width, height: exr.height, rows, covered: exr.header.channels.some((c) => c.name === "A") };
 }
 
+// The other way, in floats and without compression: A, B, G and R of each row.
+export function encode({ width, height, rows }) {
+  const int = (...v) => Buffer.from(Int32Array.from(v).buffer), text = (s) => Buffer.from(s + "\0");
+  const attribute = (name, type, value) => Buffer.concat([text(name), text(type), int(value.length), value]);
+  const channels = Buffer.concat([..."ABGR"].map((c) => Buffer.concat([text(c), int(2, 0, 1, 1)])).concat([Buffer.from([0])]));
+  const window = int(0, 0, width - 1, height - 1), floats = (...v) => Buffer.from(Float32Array.from(v).buffer);
+  const head = Buffer.concat([
+    int(20000630, 2), attribute("channels", "chlist", channels), attribute("compression", "compression", Buffer.from([0])),
+    attribute("dataWindow", "box2i", window), attribute("displayWindow", "box2i", window), attribute("lineOrder", "lineOrder", Buffer.from([0])),
+    attribute("pixelAspectRatio", "float", floats(1)), attribute("screenWindowCenter", "v2f", floats(0, 0)), attribute("screenWindowWidth", "float", floats(1)), Buffer.from([0]),
+  ]);
+  const lines = rows.map((row, y) => Buffer.concat([int(y, 16 * width), ...[3, 2, 1, 0].map((c) => floats(...row.map((p) => p[c])))]));
+  const offsets = lines.map((_, y) => BigInt(head.length + 8 * height + y * lines[0].length));
+  return Buffer.concat([head, Buffer.from(BigInt64Array.from(offsets).buffer), ...lines]);
+}
+
 // Of a path in the report behind images.html.
 export function readPicture(path) {
   const file = join(pages, "images", path);

@@ -104,11 +104,12 @@ test("changes are marked on their line: by direction, and whether they lasted", 
 
 test("noise lies round the level between two changes, twice as wide as the intervals", async () => {
   const p = await page(few(), { hash: "&hi.s=2&hi.r=20&hi.b=absolute" });
-  const bands = await p.locator("#hi-opened .noise").evaluateAll((rects) => rects.map((r) => ({ height: r.getBoundingClientRect().height, width: r.getBoundingClientRect().width })));
+  const bands = await p.locator("#hi-opened .noise").evaluateAll((rects) => rects.map((r) => r.getBoundingClientRect().toJSON()));
   const whisker = await p.locator("#hi-opened .whisker").evaluate((l) => l.getBoundingClientRect().height);
   assert.equal(bands.length, 3); // 30, 33 and 31.35 ms
   assert.ok(Math.abs(bands[1].height / whisker - 2) < 0.03, `${bands[1].height} and ${whisker}`);
   assert.ok(bands[1].height > bands[0].height && bands[0].width > bands[2].width);
+  assert.ok(bands[0].right < bands[1].left && bands[1].right < bands[2].left, "a band ends where the next begins");
 });
 
 test("the mean of a method takes steps with its series, none where one begins late", async () => {
@@ -123,6 +124,12 @@ test("the mean of a method takes steps with its series, none where one begins la
   assert.equal(await since(5 / 29), "0 %");
   assert.equal(await since(12 / 29), "+6.6 %"); // one of three by 1.21: the cube root of it
   assert.equal(await since(1), "+6.6 %");
+  // Nor does the one that begins with the step take part in it.
+  const joined = structuredClone(history);
+  for (const name of ["value", "lo", "hi"]) joined.series[3].values.method[name].fill(40, 10, 15);
+  const q = await page(joined, { hash: "&hi.l=mean" });
+  await hover(q, q.locator(".history-frame").first(), 12 / 29);
+  assert.match(await tip(q).innerText(), /since the first \+6\.6 %/);
   await hover(p, frame, 10 / 29);
   assert.match(await tip(p).innerText(), /changed most: mfis N=1 \+21 %/);
 });

@@ -2,8 +2,9 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
-import { decode, encodeSrgb, expected, looked, luminance, readPicture, signedError } from "./exr.mjs";
+import { decode, encode, encodeSrgb, expected, looked, luminance, readPicture, signedError } from "./exr.mjs";
 import { close, open, report } from "./harness.mjs";
+import { digestOf, made } from "./made.mjs";
 import { assertSound } from "./sound.mjs";
 
 const told = report("images");
@@ -221,6 +222,29 @@ test("the whole picture has the report's SMAPE of its seed", async () => {
     }
   });
   clean(page);
+});
+
+test("a pixel that is no number is told and never averaged away, nor kept from parts without it", async () => {
+  const rows = a.rows.map((row) => row.map((p) => [...p]));
+  const [x, y] = [Math.floor(0.5 * width), Math.floor(0.5 * height)];
+  rows[y][x][1] = Infinity; // of which a difference squared would stay Inf, no NaN
+  const { element } = digestOf("images").images.find((i) => i.kind === "indirect" && i.case === first);
+  const name = made("images", () => {}, { [element]: encode({ width, height, rows }) });
+  const figures = async (part) => {
+    const page = await open(name, { hash: `${chosen}&im.l=one&im.s=${part.join(",")}` });
+    await page.waitForSelector("#im-body[data-ready]");
+    const found = await statistics(page);
+    clean(page);
+    return { note: (await page.locator("#im-body .table .note").allTextContents()).join(), rows: found.rows.map((r) => r.slice(1, 6).map(Number)) };
+  };
+  const hit = await figures([x - 2, y - 2, 5, 5]);
+  assert.match(hit.note, /1 pixels hold a NaN or Inf: there is no error/);
+  assert.ok(Number.isNaN(hit.rows[1][3]) && Number.isNaN(hit.rows[1][4]), `${hit.rows[1]}`);
+  assert.ok(hit.rows[2][3] > 0, "B has none");
+  const part = [x + 1, y + 1, 6, 5], clear = await figures(part);
+  const want = expected(a, r, { x: part[0], y: part[1], width: part[2], height: part[3] }, r.covered);
+  near(clear.rows[1][3], want.smape, 1e-3, 0.05, "SMAPE beside it");
+  assert.doesNotMatch(clear.note, /NaN/);
 });
 
 test("a rectangle by keys", async () => {

@@ -12,9 +12,12 @@ export function digestOf(name) {
   return JSON.parse(inflateSync(Buffer.from(element.exec(text)[2].trim(), "base64")).toString());
 }
 
-// -> the name under which harness.open() finds the page whose data `change` has been through.
-export function made(name, change) {
-  const text = readFileSync(join(pages, `${name}.html`), "utf8");
+// -> the name under which harness.open() finds the page whose data `change` has been through. `pictures`: by element,
+// the bytes that it holds instead.
+export function made(name, change, pictures = {}) {
+  let text = readFileSync(join(pages, `${name}.html`), "utf8");
+  for (const [id, bytes] of Object.entries(pictures))
+    text = text.replace(new RegExp(`(<script[^>]*id="${id}"[^>]*>)[^<]*`), (_, open) => open + bytes.toString("base64"));
   const digest = digestOf(name);
   change(digest);
   const data = deflateSync(JSON.stringify(digest)).toString("base64");
