@@ -30,7 +30,7 @@ class SweepEngines : public CliTest {
     config_["scenes"] = {"cornell", "ring514", "colonnade"};
     config_["methods"] = {{{"method", "vpl"}, {"N", {2, 4, 8, 16, 32}}},
                           {{"method", "mfis"}, {"N", {4, 8, 16}}}};
-    config_["timing"] = {{"min_samples", 300}, {"max_samples", 300}, {"time_limit_s", 600}};
+    config_["timing"] = {{"min_samples", 60}, {"max_samples", 60}, {"time_limit_s", 600}};
     const Finished f =
         call({"plan", write_config().string(), "--out", sweep_.string(), "--shards-by", "block:2"});
     ASSERT_EQ(f.code, 0) << f.err;

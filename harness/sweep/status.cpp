@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/printable.h"
 #include "base/progress.h"
@@ -39,6 +40,21 @@ ShardStatus shard_status(const SweepFolder& folder, size_t shard, std::vector<Fi
                                                              : attempts.back().told();
   }
   return s;
+}
+
+// Counts are of one class of devices, as a merged report is, where it has the shard.
+void put_first_the_class_of_most(std::vector<ShardStatus>* shards) {
+  std::map<std::string, size_t> counts;
+  for (const ShardStatus& s : *shards) {
+    std::set<std::string> classes;
+    for (const FinishedShard& f : s.folders) classes.insert(device_class(f.record.device));
+    for (const std::string& name : classes) ++counts[name];
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
+  if (most == counts.end()) return;
+  for (ShardStatus& s : *shards)
+    std::ranges::stable_partition(
+        s.folders, [&](const FinishedShard& f) { return device_class(f.record.device) == most->first; });
 }
 
 std::optional<double> seconds_left(const SweepStatus& status) {
@@ -125,6 +141,7 @@ SweepStatus status_of(const fs::path& sweep, double silent_s) {
   auto finished = folder.finished(status.plan.hash(), status.plan.shards.size());
   for (size_t i = 0; i < finished.size(); ++i)
     status.shards.push_back(shard_status(folder, i, std::move(finished[i]), silent_s));
+  put_first_the_class_of_most(&status.shards);
   status.seconds_left = seconds_left(status);
   return status;
 }
