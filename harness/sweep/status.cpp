@@ -31,6 +31,7 @@ ShardStatus shard_status(const SweepFolder& folder, size_t shard, std::vector<Fi
     s.why = attempts.back().told();
   } else if (!s.folders.empty()) {
     s.state = ShardState::done;
+    if (!attempts.empty() && attempts.back().failed()) s.why = attempts.back().told();  // once more, in vain
   } else if (!unsound.empty()) {
     s.state = ShardState::failed;
     s.why = unsound;
@@ -161,12 +162,13 @@ std::string status_text(const SweepStatus& s) {
   for (const ShardStatus& shard : s.shards) {
     const std::string scene = excerpt(s.plan.shards[shard.shard].scene);
     const std::string line = fmt::format("  {} {:7} {}", shard_name(shard.shard), name(shard.state), scene);
-    if (shard.state != ShardState::done) {
-      text += fmt::format("{}{}{}\n", line, shard.why.empty() ? "" : ": ", excerpt(shard.why, 400));
-    } else if (const size_t failed = shard.folders.front().record.cases.failed; failed > 0) {
-      text +=
-          fmt::format("{}: {} of {} cases failed\n", line, failed, shard.folders.front().record.cases.all());
-    }
+    std::vector<std::string> notes;
+    const size_t failed = shard.folders.empty() ? 0 : shard.folders.front().record.cases.failed;
+    if (failed > 0)
+      notes.push_back(fmt::format("{} of {} cases failed", failed, shard.folders.front().record.cases.all()));
+    if (!shard.why.empty()) notes.push_back(excerpt(shard.why, 400));
+    if (notes.empty() && shard.state == ShardState::done) continue;
+    text += fmt::format("{}{}{}\n", line, notes.empty() ? "" : ": ", fmt::join(notes, "; "));
   }
   return text + classes_text(s);
 }

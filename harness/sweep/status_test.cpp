@@ -78,6 +78,9 @@ TEST_F(StatusTest, OtherClassesOfDevicesAreNamedAndCanBeRunAgain) {
   other.device.name = "another GPU";
   sweep.finish(1, other);
   const SweepStatus status = status_of(root_);
+  Attempt holder;
+  AttemptLock::take(sweep.folder.attempts(1), &holder)->end({"", 6, false, "'llvmpipe' is required"});
+  EXPECT_TRUE(holds(status_text(status_of(root_)), "00001 done    cornell: attempt 1 on "));
   EXPECT_TRUE(holds(status_text(status), "1 on another GPU, Mesa 22.3.6, subgroup 8"));
   EXPECT_EQ(status.open(), std::vector<size_t>{2});
   EXPECT_EQ(status.open("llvmpipe"), (std::vector<size_t>{1, 2}));
