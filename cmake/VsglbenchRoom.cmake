@@ -44,7 +44,7 @@ function(vsglbench_tests target kind labels)
     set(environment ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
   endif()
   gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${labels}" TIMEOUT 900 ${environment})
+                       PROPERTIES LABELS "${labels}" TIMEOUT 900 ${environment} ${VSGLBENCH_TEST_PROPERTIES})
   if(labels STREQUAL "gpu")
     vsglbench_install_test(${program})
   endif()

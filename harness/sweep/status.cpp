@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/printable.h"
 #include "base/progress.h"
@@ -30,6 +31,7 @@ ShardStatus shard_status(const SweepFolder& folder, size_t shard, std::vector<Fi
     s.why = attempts.back().told();
   } else if (!s.folders.empty()) {
     s.state = ShardState::done;
+    if (!attempts.empty() && attempts.back().failed()) s.why = attempts.back().told();  // once more, in vain
   } else if (!unsound.empty()) {
     s.state = ShardState::failed;
     s.why = unsound;
@@ -39,6 +41,21 @@ ShardStatus shard_status(const SweepFolder& folder, size_t shard, std::vector<Fi
                                                              : attempts.back().told();
   }
   return s;
+}
+
+// Counts are of one class of devices, as a merged report is, where it has the shard.
+void put_first_the_class_of_most(std::vector<ShardStatus>* shards) {
+  std::map<std::string, size_t> counts;
+  for (const ShardStatus& s : *shards) {
+    std::set<std::string> classes;
+    for (const FinishedShard& f : s.folders) classes.insert(device_class(f.record.device));
+    for (const std::string& name : classes) ++counts[name];
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
+  if (most == counts.end()) return;
+  for (ShardStatus& s : *shards)
+    std::ranges::stable_partition(
+        s.folders, [&](const FinishedShard& f) { return device_class(f.record.device) == most->first; });
 }
 
 std::optional<double> seconds_left(const SweepStatus& status) {
@@ -125,6 +142,7 @@ SweepStatus status_of(const fs::path& sweep, double silent_s) {
   auto finished = folder.finished(status.plan.hash(), status.plan.shards.size());
   for (size_t i = 0; i < finished.size(); ++i)
     status.shards.push_back(shard_status(folder, i, std::move(finished[i]), silent_s));
+  put_first_the_class_of_most(&status.shards);
   status.seconds_left = seconds_left(status);
   return status;
 }
@@ -144,12 +162,13 @@ std::string status_text(const SweepStatus& s) {
   for (const ShardStatus& shard : s.shards) {
     const std::string scene = excerpt(s.plan.shards[shard.shard].scene);
     const std::string line = fmt::format("  {} {:7} {}", shard_name(shard.shard), name(shard.state), scene);
-    if (shard.state != ShardState::done) {
-      text += fmt::format("{}{}{}\n", line, shard.why.empty() ? "" : ": ", excerpt(shard.why, 400));
-    } else if (const size_t failed = shard.folders.front().record.cases.failed; failed > 0) {
-      text +=
-          fmt::format("{}: {} of {} cases failed\n", line, failed, shard.folders.front().record.cases.all());
-    }
+    std::vector<std::string> notes;
+    const size_t failed = shard.folders.empty() ? 0 : shard.folders.front().record.cases.failed;
+    if (failed > 0)
+      notes.push_back(fmt::format("{} of {} cases failed", failed, shard.folders.front().record.cases.all()));
+    if (!shard.why.empty()) notes.push_back(excerpt(shard.why, 400));
+    if (notes.empty() && shard.state == ShardState::done) continue;
+    text += fmt::format("{}{}{}\n", line, notes.empty() ? "" : ": ", fmt::join(notes, "; "));
   }
   return text + classes_text(s);
 }

@@ -22,8 +22,10 @@ std::string_view name(ShardState state);
 struct ShardStatus {
   size_t shard = 0;
   ShardState state = ShardState::missing;
-  std::string why;                     // of failed; of running, where
-  std::vector<FinishedShard> folders;  // sound ones, the first done first
+  std::string why;  // of failed; of running, where; of done, why a task that came after was in vain
+  // Sound ones: those of the class of devices that most shards were measured on, then those of others; of
+  // each class the first done first.
+  std::vector<FinishedShard> folders;
   size_t attempts = 0;
 };
 

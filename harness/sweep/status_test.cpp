@@ -78,9 +78,23 @@ TEST_F(StatusTest, OtherClassesOfDevicesAreNamedAndCanBeRunAgain) {
   other.device.name = "another GPU";
   sweep.finish(1, other);
   const SweepStatus status = status_of(root_);
+  Attempt holder;
+  AttemptLock::take(sweep.folder.attempts(1), &holder)->end({"", 6, false, "'llvmpipe' is required"});
+  EXPECT_TRUE(holds(status_text(status_of(root_)), "00001 done    cornell: attempt 1 on "));
   EXPECT_TRUE(holds(status_text(status), "1 on another GPU, Mesa 22.3.6, subgroup 8"));
   EXPECT_EQ(status.open(), std::vector<size_t>{2});
   EXPECT_EQ(status.open("llvmpipe"), (std::vector<size_t>{1, 2}));
+
+  // Once the others are there on the first device, its cases count, not those that failed on another.
+  Report broken = sweep.report(2);
+  broken.device.name = "another GPU";
+  broken.cases[0] = synthetic_failure(broken.cases[0].id, Status::failed, "a NaN");
+  sweep.finish(2, broken, 2);
+  EXPECT_EQ(status_of(root_).exit_code(), 1);
+  sweep.finish(1, sweep.report(1), 3);
+  sweep.finish(2, sweep.report(2), 3);
+  EXPECT_EQ(status_of(root_).exit_code(), 0);
+  EXPECT_EQ(status_of(root_).cases().failed, 0u);
 }
 
 TEST_F(StatusTest, TextOfFilesIsPrintable) {
