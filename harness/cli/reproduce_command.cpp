@@ -24,6 +24,18 @@ namespace vsglbench {
 namespace {
 
 constexpr uint64_t kThumbnailBytes = 200'000;
+constexpr const char* kHelp =
+    R"(Each is measured in a folder of its own below --out and goes on where it was interrupted; what is finished
+stands as long as config, programme and device are the same, and what failed, lacked its scene
+or lost its pictures is tried again.
+The page, README.md and papers.json with thumbnails, goes to reports/papers/DEVICE; exhibits that were not asked for
+keep their place on it.
+Scales: quick takes a fraction of the sizes, paper the configs as they are: the published sizes, but for what moves.
+With --check the page is left alone, and a new one goes to OUT/check: verdicts are held against it, and exit code 4
+says that one has flipped, as in "[MFIS16 §5]: no longer holds".
+Exit codes: 0 all made, 1 something was not (a scene that is not on this machine, too), 2 bad usage or config,
+3 no usable device, 4 a verdict has flipped.
+Example: vsglbench reproduce mfis16-tab1 mfis16-fig5 --scale quick)";
 
 struct ReproduceCommand {
   std::vector<std::string> names;
@@ -32,6 +44,22 @@ struct ReproduceCommand {
   WorkOptions work;
   bool check = false;
 };
+
+// Of --help. Empty where the list can't be read: the command itself says why.
+std::string known_names() {
+  std::string text = "Names: all";
+  size_t width = text.size();
+  try {
+    for (const Exhibit& exhibit : load_exhibits({})) {
+      const bool full = width + 2 + exhibit.name.size() > 100;
+      text += (full ? ",\n" : ", ") + exhibit.name;
+      width = (full ? 0 : width + 2) + exhibit.name.size();
+    }
+  } catch (const Error&) {
+    return "";
+  }
+  return text + ".\n";
+}
 
 // "lavapipe", "h200", "rtx3080ti": the folder of a device's page.
 std::string folder_name(const std::string& device) {
@@ -228,22 +256,7 @@ void add_reproduce_command(CLI::App& app, const std::vector<std::string>& argv, 
   auto options = std::make_shared<ReproduceCommand>();
   CLI::App* command = app.add_subcommand(
       "reproduce", "tables and figures of the papers made anew, beside what is published, on one page");
-  command->footer(
-      "Each is measured in a folder of its own below --out and goes on where it was interrupted; what is "
-      "finished\nstands as long as config, programme and device are the same, and what failed, lacked its "
-      "scene or lost its pictures is tried again.\nThe page, README.md and papers.json with thumbnails, goes "
-      "to "
-      "reports/papers/DEVICE; exhibits that were not asked for\nkeep their place on it.\n"
-      "Scales: quick takes a fraction of the sizes, paper the configs as they are: the published sizes, but "
-      "for "
-      "what moves.\n"
-      "With --check the page is left alone, and a new one goes to OUT/check: verdicts are held against it, "
-      "and "
-      "exit code 4\nsays that one has flipped, as in \"[MFIS16 §5]: no longer holds\".\n"
-      "Exit codes: 0 all made, 1 something was not (a scene that is not on this machine, too), 2 bad usage "
-      "or "
-      "config,\n3 no usable device, 4 a verdict has flipped.\n"
-      "Example: vsglbench reproduce mfis16-tab1 mfis16-fig5 --scale quick");
+  command->footer([] { return known_names() + kHelp; });
   command->add_option("names", options->names, "tables and figures, or all (default)");
   command->add_option("--only", options->names, "the same; may come again")->allow_extra_args(false);
   command->add_option("--scale", options->scale, "quick or paper")

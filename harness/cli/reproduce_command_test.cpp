@@ -88,7 +88,8 @@ TEST_F(ReproduceCommand, MakesAPageAndChecksAgainstIt) {
 }
 
 TEST_F(ReproduceCommand, RefusesWhatItCannotMake) {
-  expect_refused(reproduce({"three"}), 2, "no table or figure 'three'");
+  expect_refused(reproduce({"three"}), 2, "no table or figure 'three'; known: all, one");
+  EXPECT_TRUE(contains(run({"reproduce", "--help"}).out, "Names: all, mfis16-tab1, "));
   for (const std::string option : {"--out", "--page", "--against", "--exhibits", "--claims"})
     expect_refused(run({"reproduce", "three", option, ""}), 2, option + ": is empty; give a path");
   expect_refused(reproduce({"--scale", "huge"}), 2, "--scale");

@@ -27,9 +27,11 @@ void print_plan(const SweepPlan& plan, const fs::path& out) {
     least = std::min(least, s.cases.size());
     most = std::max(most, s.cases.size());
   }
-  fmt::print("{} cases of {} scenes in {} shards of {} cases\n{}\n", plan.case_ids().size(),
+  const size_t again = plan.measurements() - plan.case_ids().size();
+  fmt::print("{} cases of {} scenes in {} shards of {} cases{}\n{}\n", plan.case_ids().size(),
              plan.scenes().size(), plan.shards.size(),
              least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most),
+             again > 0 ? fmt::format(", which measure anchors {} times more", again) : "",
              printable((out / kPlanFile).string()));
 }
 

@@ -61,8 +61,13 @@ class SweepCommand : public CliTest {
 
 // Its images, too, to the bit.
 TEST_F(SweepCommand, AMergedReportIsThatOfOneMachineButForTimes) {
-  ASSERT_EQ(plan({"--shards-by", "block:2"}).code, 0);
+  const Finished planned = plan({"--shards-by", "block:2"});
+  ASSERT_EQ(planned.code, 0);
+  EXPECT_TRUE(contains(planned.out,
+                       "8 cases of 2 scenes in 4 shards of 2 to 3 cases, which measure anchors 2 times more"))
+      << planned.out;
   EXPECT_EQ(status().code, 5);
+  EXPECT_TRUE(contains(status().out, "0 cases of 10 measured")) << status().out;
   for (const size_t shard : {3, 0, 2, 1}) {
     const Finished f = task(shard);
     ASSERT_EQ(f.code, 0) << f.err;

@@ -124,12 +124,11 @@ std::vector<Exhibit> load_exhibits(const std::filesystem::path& file) {
 
 std::vector<Exhibit> select_exhibits(const std::vector<Exhibit>& all, const Strings& names) {
   if (names.empty() || std::ranges::count(names, "all") > 0) return all;
-  Strings known;
+  Strings known = {"all"};
   for (const Exhibit& e : all) known.push_back(e.name);
   for (const std::string& name : names) {
     if (std::ranges::count(known, name) == 0)
-      throw fail(ErrorKind::usage, "no table or figure '{}'{}; there are all, {}", name,
-                 suggestion(name, known), fmt::join(known, ", "));
+      throw fail(ErrorKind::usage, "no table or figure '{}'{}", name, suggestion(name, known));
   }
   std::vector<Exhibit> out;
   for (const Exhibit& e : all) {

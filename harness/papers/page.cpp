@@ -241,11 +241,20 @@ Json merged(const Json& earlier, const Json& fresh, const std::vector<Exhibit>& 
 }
 
 std::string papers_page(const Json& papers) {
+  std::vector<std::string> hosts;  // exhibits that keep their place may be another's
+  const auto add_host = [&](const Json& host) {
+    const std::string text =
+        fmt::format("{} with {} cores", cell(host.at("cpu")), host.at("cores").get<int>());
+    if (std::ranges::count(hosts, text) == 0) hosts.push_back(text);
+  };
+  for (const Json& e : papers.at("exhibits"))
+    if (e.contains("host")) add_host(e["host"]);
+  if (hosts.empty()) add_host(papers.at("host"));
   std::string out = "# The papers, reproduced\n\n";
   const Json& device = papers.at("device");
   out += fmt::format(
       "What [MFIS16], [VSGL14], [VSGL15s] and [SGL22] show in tables and figures, made anew by "
-      "`vsglbench reproduce all` on {} ({} {}), {} with {} cores{}. Published values stand as printed; what "
+      "`vsglbench reproduce all` on {} ({} {}), {}{}. Published values stand as printed; what "
       "is "
       "asserted is only what carries over between machines: order, ratios, signs. Each thumbnail is made of "
       "a "
@@ -254,7 +263,7 @@ std::string papers_page(const Json& papers) {
       "where a "
       "verdict has changed since.\n\n",
       cell(device.at("name")), cell(device.at("driver")), cell(device.at("driver_version")),
-      cell(papers.at("host").at("cpu")), papers.at("host").at("cores").get<int>(),
+      fmt::join(hosts, " and "),
       device.at("type") == "cpu" ? ": a CPU, whose times say nothing of a GPU's" : "");
   out += "Exhibits: ";
   std::vector<std::string> links;

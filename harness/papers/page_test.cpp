@@ -70,6 +70,15 @@ TEST(PapersPage, HasPublishedAndMeasuredSideBySide) {
   EXPECT_EQ(count(page, "llvm|pipe"), 0u);  // would end a cell
 }
 
+// What keeps its place on the page may have been measured elsewhere.
+TEST(PapersPage, NamesEveryHostOfItsExhibits) {
+  Json papers = page_of(Json::array());
+  papers["exhibits"].push_back(papers["exhibits"][0]);
+  EXPECT_EQ(count(papers_page(papers), "(Mesa 1), CPU with 2 cores: a CPU"), 1u);
+  papers["exhibits"][0]["host"]["cpu"] = "Other";
+  EXPECT_EQ(count(papers_page(papers), "(Mesa 1), Other with 2 cores and CPU with 2 cores: a CPU"), 1u);
+}
+
 TEST(PapersPage, HasNoMarkupOfItsFiles) {
   Json papers = page_of(Json::array({trial("x`<b>", "holds")}));
   papers["exhibits"][0]["title"] = "<script>\x1b[2J|\n# head";

@@ -155,9 +155,8 @@ class Maker {
   void add_lit_camera(const TriangleTree& tree, const std::string& name, const GltfCamera& camera) {
     const auto found = find_view(tree, {.fixed_camera = shot_of(&camera, nullptr).camera});
     if (!found || !is_good(found->measure)) {
-      return note(
-          fmt::format("camera '{}' is left out: no light was found that it would see the indirect light of",
-                      camera.name));
+      return note(fmt::format("camera '{}' is left out: no light was found whose indirect light it would see",
+                              camera.name));
     }
     note(fmt::format("the file has no light: a spot was found for its camera '{}'", camera.name));
     add(name, {{"description", fmt::format("camera '{}' of the file, with a found spot", camera.name)},

@@ -182,8 +182,10 @@ std::vector<std::string> shot_notes(const ShotMeasure& m) {
               "the picture shows a surface in {}; the camera sees {} of the lit surface, and {} of what it "
               "sees is lit",
               percent(m.seen), percent(m.lit_seen), percent(m.direct)),
-          fmt::format("indirect light reaches {} of what it sees, at about {:.2g} of the direct light's mean",
-                      percent(m.reached), m.strength)};
+          fmt::format(
+              "indirect light reaches {} of what it sees; its irradiance there is on average about {:.2g} "
+              "times the direct light's",
+              percent(m.reached), m.strength)};
 }
 
 Bitmap preview_picture(const TriangleTree& tree, uint32_t width) {

@@ -141,6 +141,12 @@ std::vector<std::string> SweepPlan::case_ids() const {
   return out;
 }
 
+size_t SweepPlan::measurements() const {
+  size_t count = 0;
+  for (const Shard& shard : shards) count += shard.cases.size();
+  return count;
+}
+
 std::string SweepPlan::hash() const {
   Hasher hasher;
   hasher.text(config_hash).text(kernels).text(git.commit).value(git.dirty);

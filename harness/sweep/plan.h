@@ -37,6 +37,7 @@ struct SweepPlan {
 
   std::vector<std::string> scenes() const;    // each once, in the order of the shards
   std::vector<std::string> case_ids() const;  // each once, in the config's order
+  size_t measurements() const;                // an anchor counts in each of its blocks
   // Of all that decides what is measured; not of when and where the plan was made.
   std::string hash() const;
 };

@@ -155,10 +155,8 @@ std::string status_text(const SweepStatus& s) {
                   s.count(ShardState::running), s.count(ShardState::failed), s.count(ShardState::missing));
   if (s.seconds_left && s.count(ShardState::done) < s.shards.size())
     text += fmt::format("; about {} left", format_duration(*s.seconds_left));
-  size_t planned = 0;  // an anchor counts in each of its blocks
-  for (const Shard& shard : s.plan.shards) planned += shard.cases.size();
-  text += fmt::format("\n{} cases of {} measured, {} of them failed, {} skipped\n", cases.all(), planned,
-                      cases.failed, cases.skipped);
+  text += fmt::format("\n{} cases of {} measured, {} of them failed, {} skipped\n", cases.all(),
+                      s.plan.measurements(), cases.failed, cases.skipped);
   for (const ShardStatus& shard : s.shards) {
     const std::string scene = excerpt(s.plan.shards[shard.shard].scene);
     const std::string line = fmt::format("  {} {:7} {}", shard_name(shard.shard), name(shard.state), scene);

@@ -62,7 +62,7 @@ export function statisticsTable(page: Page, chosen: Chosen, decoded: Decoded, re
       mean(0, "R"), mean(1, "G"), mean(2, "B"),
       { key: "smape", title: "SMAPE", unit: "%", hint: "100 mean(|x−r| / ((|x|+|r|)/2)) over pixels and channels", value: (r) => r.smape, text: (r) => figure(r.smape, 4) },
       { key: "rmse", title: "RMSE", unit: "W/m²/sr", hint: "√mean((x−r)²) over pixels and channels", value: (r) => r.rmse, text: (r) => figure(r.rmse, 4) },
-      ...(rectangle ? [] : [{ key: "reported", title: "SMAPE in the report", unit: "%", hint: "of the first seed, whose picture this is", value: (r: Row) => r.reported, text: (r: Row) => figure(r.reported, 4) }]),
+      ...(rectangle ? [] : [{ key: "reported", title: "SMAPE of the first seed in the report", unit: "%", hint: "the picture is of this seed", value: (r: Row) => r.reported, text: (r: Row) => figure(r.reported, 4) }]),
     ],
   });
 }
