@@ -18,7 +18,8 @@ function least(which, some) {
     for (const one of read(`${which}-${round}`, 'report.json').cases) {
       for (const pass of one.passes ?? []) see(pass.name, one.id, pass.min_ms);
     }
-    for (const block of read(`${which}-${round}`, 'blocks.json').blocks) {
+    const blocks = ['small.json', 'large.json'].flatMap((file) => read(`${which}-${round}`, file).blocks);
+    for (const block of blocks) {
       for (const time of block.times) {
         if (time.on_device === false) continue;
         see(`${block.block}, ${time.input}, ${time.contestant}, ${time.size}`, '', Math.min(...time.samples_ms));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "answer/reply.h"
+#include "answer/rivals.h"
 #include "cli/command.h"
 #include "report/noise.h"
 
@@ -14,13 +15,21 @@ namespace {
 struct AnswerCommand {
   fs::path report;
   Question question;
-  std::string error, time;
+  std::string error, time, method;
 };
 
 void print(const AnswerCommand& command) {
   Question question = command.question;
   if (!command.error.empty() && !command.time.empty())
     throw fail(ErrorKind::usage, "ask for one of --error smape<=5 and --time 2ms");
+  if (!command.method.empty()) {
+    if (!command.error.empty() || !command.time.empty())
+      throw fail(ErrorKind::usage, "ask for one of --method cut, --error smape<=5 and --time 2ms");
+    const Report report = read_report_at(command.report);
+    fmt::print("{}",
+               rivalry_table(rivalries(report, command.method, {"rmse", "flip"}, question.options.time)));
+    return;
+  }
   if (!command.error.empty()) ask_error(command.error, &question);
   if (!command.time.empty()) ask_time(command.time, &question);
   fmt::print("{}", reply(read_report_at(command.report), question));
@@ -47,11 +56,16 @@ void add_answer_command(CLI::App& app) {
       "What halving costs is read off the front in log-log between the two cases named; nothing is "
       "extrapolated.\n"
       "Example: vsglbench answer reports/front-lavapipe --scene cornell --error 'smape<=10'\n"
-      "         vsglbench answer reports/front-lavapipe --time 50ms --metric rmse");
+      "         vsglbench answer reports/front-lavapipe --time 50ms --metric rmse\n"
+      "         vsglbench answer reports/front-lavapipe --method cut");
   command->add_option("report", options->report, "report.json, or its folder")->required();
   command->add_option("--scene", options->question.scene, "one scene (default: all)");
   command->add_option("--error", options->error, "a bound such as smape<=5, rmse<=0.01, flip<=0.1");
   command->add_option("--time", options->time, "a bound such as 2ms");
+  command->add_option(
+      "--method", options->method,
+      "instead: a table of which of this method's points others dominate in RMSE and FLIP, and its "
+      "RMSE beside the papers' VSGL methods at equal time");
   command->add_option("--metric", options->question.options.metric,
                       "with --time: the error to make small (default smape)");
   command->add_option(

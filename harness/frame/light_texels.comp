@@ -1,8 +1,7 @@
 // The RSM texel that stands for each light: the one that the primary light sees its mean through. Where every
 // texel is a light of its own that is the light's texel.
 //  * `texels`: its exact BRDF, with the light's whole flux, for the consistent bias reduction [VSGL14 §3.3].
-//  Unlike the
-//    paper, which filters BRDF parameters, the BRDF is a texel's: with N it converges to the same.
+//    Unlike the paper, which filters BRDF parameters, the BRDF is a texel's: with N it converges to the same.
 //  * LOBE_FILTER 1: the light's specular lobe becomes that texel's, unfiltered, of the same power [VSGL14
 //  Fig. 3a].
 #version 460
@@ -18,19 +17,7 @@ layout(push_constant, scalar) uniform Push {
   uint count;
 };
 
-// Texel that `position` falls into.
-ivec2 texel_of(vec3 position) {
-  vec3 d = position - emitter.position;
-  float along = emitter.perspective != 0u ? max(dot(d, emitter.forward), 1e-20) : 1.0;
-  vec2 plane = vec2(dot(d, emitter.right), dot(d, emitter.up)) / (along * emitter.extent);
-  ivec2 size = ivec2(emitter.width, emitter.height);
-  return clamp(ivec2((vec2(0.5) + vec2(0.5, -0.5) * plane) * vec2(size)), ivec2(0), size - 1);
-}
-
-// Φ of a light of this reflected power; 0 where the texel reflects nothing.
-vec3 flux_behind(vec3 reflected, vec3 reflectance) {
-  return mix(vec3(0.0), reflected / max(reflectance, vec3(1e-20)), greaterThan(reflectance, vec3(0.0)));
-}
+#include "light_texel.glsl"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

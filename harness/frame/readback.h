@@ -38,6 +38,8 @@ class FrameReadback {
   bool reduces_bias() const { return parts_.shade.reduces_bias(); }
   std::vector<uint8_t> surface_mask() const;  // 1 where the camera sees a surface
   LightRecords lights() const { return parts_.lights.read(); }
+  // What the pixels were shaded by where the shading is filtered; else none.
+  std::vector<gpu::FilteredLight> filtered_lights() const { return parts_.shade.read_filtered_lights(); }
   std::vector<float> importance() const;  // the PDF on the RSM, of any scale; empty when unused
 
   // On the RSM: Σ over its lights, and over its texels, of the luminance of the reflected power, W.

@@ -57,7 +57,7 @@ class ShadeTest : public ::testing::Test {
     return {r * std::cos(p), r * std::sin(p), z};
   }
   glm::vec3 near(const glm::vec3& axis) { return glm::normalize(axis + 0.6f * direction()); }
-  float ndf() { return uniform() < 0.5f ? 0.03f + uniform() : -std::exp(uniform() * 8); }
+  float ndf() { return uniform() < 0.5f ? 0.03f + 0.97f * uniform() : -std::exp(uniform() * 8); }
 
   void add_pixel(std::array<std::vector<glm::vec4>, 5>& maps) {
     const glm::vec3 p = 2.0f * color() - 1.0f, view = glm::normalize(camera_.position - p);

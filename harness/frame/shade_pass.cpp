@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/filtered_lights.h"
 #include "frame/light_ranges.h"
 #include "frame/seeds.h"
 
@@ -30,8 +31,10 @@ const Buffer& ShadePass::shaded() const {
 }
 
 bool ShadePass::reduces_bias() const {
-  return lights_.kind() == LightKind::vsgl && parameters_.bias_reduction > 0;
+  return lights_.kind() == LightKind::vsgl && parameters_.bias_reduction > 0 && !filters();
 }
+
+bool ShadePass::filters() const { return is_filtered(lights_.kind(), parameters_.shading); }
 
 bool ShadePass::needs_light_texels() const {
   if (lights_.kind() != LightKind::vsgl) return false;
@@ -75,6 +78,24 @@ const Buffer& ShadePass::light_texels(Recorder& r) const {
   return texels;
 }
 
+const Buffer& ShadePass::filtered_lights() const {
+  return stage_.memory.filtered_lights.get(stage_.device, "filtered lights",
+                                           lights_.count() * filtered_light_stride(lights_.lobes()));
+}
+
+std::vector<gpu::FilteredLight> ShadePass::read_filtered_lights() const {
+  if (!filters()) return {};
+  return vsglbench::read_filtered_lights(filtered_lights(), lights_.count(), lights_.lobes());
+}
+
+void ShadePass::filter_lights(Recorder& r) const {
+  r.pass({PassStage::shade, std::nullopt, "filter"}, [&] {
+    record_filtered_lights(r, stage_.kernels, halves_.field(Half::rsm, nullptr), parameters_.shading,
+                           permutation(parameters_.effects, Half::rsm, Half::rsm), lights_.buffer(),
+                           lights_.count(), filtered_lights());
+  });
+}
+
 void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
   const Field camera = halves_.field(Half::gbuffer, nullptr);
   ShaderDefines defines = merged(shade_defines(lights_.kind(), parameters_.shading),
@@ -84,7 +105,6 @@ void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
   if (reduces_bias()) defines["BIAS_REDUCTION"] = "1";
   const uint32_t block = parameters_.interleave;
   if (block > 1) defines["INTERLEAVE"] = fmt::format("{}u", block);
-  const Kernel& kernel = stage_.kernels.get(frame_kernel("shade.comp"), defines);
   ShadePush push{.emitter = camera.emitter,
                  .words = groups_for(camera.texels(), 32),
                  .map_size = parameters_.ism.size,
@@ -92,11 +112,14 @@ void ShadePass::record(Recorder& r, uint32_t seed, uint32_t iteration) {
                  .radius2_scale = std::pow(4.0f / 9.0f, static_cast<float>(iteration)),
                  .weight = 1.0f / static_cast<float>(parameters_.progressive),
                  .alpha = parameters_.bias_reduction};
-  Bindings bound = {camera.maps, lights_.buffer(), shaded()};
+  if (filters()) defines["LIGHT_FILTERED"] = "1";
+  Bindings bound = {camera.maps, filters() ? filtered_lights() : lights_.buffer(), shaded()};
   if (needs_light_texels()) {
     const Buffer& texels = light_texels(r);
     if (reduces_bias()) bound.add(texels);
   }
+  if (filters()) filter_lights(r);
+  const Kernel& kernel = stage_.kernels.get(frame_kernel("shade.comp"), defines);
   const Sight sight = see(r, &push, &bound);
   r.pass({PassStage::shade, std::nullopt, ""}, [&] {
     for (const LightRange& range : light_ranges(lights_.count(), sight.most_lights)) {

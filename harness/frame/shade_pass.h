@@ -39,10 +39,15 @@ class ShadePass {
   // What shade.comp writes: the same, unless pixels share the lights out and are still to be joined.
   const Buffer& shaded() const;
   bool reduces_bias() const;
+  // What pixels were shaded by where the shading is filtered; else none.
+  std::vector<gpu::FilteredLight> read_filtered_lights() const;
 
  private:
   // Whether what is nearer to a VSGL's mean than its standard deviation is no occluder.
   bool clears_sigma() const { return chosen(parameters_.shading, "light_clearance") == "sigma"; }
+  bool filters() const;
+  const Buffer& filtered_lights() const;
+  void filter_lights(Recorder& recorder) const;
   // Bias reduction and unfiltered lobes need a texel for each light.
   bool needs_light_texels() const;
   std::vector<LightPoint> light_points() const;

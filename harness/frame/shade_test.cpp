@@ -134,6 +134,38 @@ TEST_F(ShadeTest, CancelledLightsHaveTheirExactBrdfs) {
   }
 }
 
+// A point light as a filtered one of no extent.
+gpu::FilteredLight filtered(const gpu::Vpl& l) {
+  return {.mean = l.position,
+          .variance = 1e-12f,
+          .normal = l.normal,
+          .diffuse = l.flux * l.diffuse / float(kPi),
+          .ndf = l.ndf,
+          .incident = l.incident,
+          .flux = l.flux,
+          .f0 = l.f0};
+}
+
+TEST_F(ShadeTest, FilteredLightsMatchDouble) {
+  auto lights = some(100, [&] { return filtered(random_vpl()); });
+  for (size_t i = 0; i < lights.size(); ++i)
+    lights[i].variance = std::pow(10.0f, static_cast<float>(i % 18) - 14);
+  const auto host = on_host(lights, [](const auto& s, const auto& l) { return exact::shade_filtered(s, l); });
+  EXPECT_LT(worst(shade(lights, {{"SHADING_MODEL", "2"}, {"LIGHT_FILTERED", "1"}}), host), 1e-4);
+}
+
+// σ → 0: the point light itself [VSGL14 Eq. 1].
+TEST_F(ShadeTest, AFilteredLightComesToAPointLight) {
+  auto points = some(kLights, [&] { return random_vpl(); });
+  std::vector<gpu::FilteredLight> lights;
+  for (gpu::Vpl& p : points) {
+    p.geometric_normal = p.normal;
+    lights.push_back(filtered(p));
+  }
+  const auto host = on_host(points, [](const auto& s, const auto& l) { return exact::shade_vpl(s, l); });
+  EXPECT_LT(worst(shade(lights, {{"SHADING_MODEL", "2"}, {"LIGHT_FILTERED", "1"}}), host), 1e-4);
+}
+
 TEST_F(ShadeTest, VplsMatchDouble) {
   const auto lights = some(kLights, [&] { return random_vpl(); });
   const auto host = on_host(lights, [&](const auto& s, const auto& l) { return exact::shade_vpl(s, l); });

@@ -11,9 +11,9 @@ const std::vector<ShadingAxis>& shading_axes() {
   static const std::vector<ShadingAxis> axes = {
       {"shading",
        "SHADING_MODEL",
-       {"vsgl16", "vsgl14"},
-       "products of a light's SGs [MFIS16 App. C], or triple products with the disk's solid angle [VSGL14 "
-       "§3.1]"},
+       {"vsgl16", "vsgl14", "filtered"},
+       "products of a light's SGs [MFIS16 App. C]; triple products with the disk's solid angle [VSGL14 "
+       "§3.1]; or exact BRDFs, filtered by the disk"},
       {"lobe_filter",
        "LOBE_FILTER",
        {"on", "off"},

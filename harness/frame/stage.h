@@ -21,7 +21,7 @@ struct FrameMemory {
   std::array<GrowingBuffer, 2> pdf;  // by half
   // By half and size: a method may clear its whole buffer, and what lies behind its lights is watched.
   std::array<std::map<size_t, GrowingBuffer>, 2> lights;
-  GrowingBuffer light_texels, shares, indirect, direct;
+  GrowingBuffer light_texels, filtered_lights, shares, indirect, direct;
   std::map<size_t, GrowingBuffer> visibility;  // bits, by range of lights
   ShadowMapMemory shadow_maps;
 };

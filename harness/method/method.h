@@ -154,7 +154,7 @@ struct MethodInfo {
   Json makes_vpls;
   std::vector<ParameterInfo> parameters;
   // What the keys of every case are for this method where a config leaves them out, in place of the harness'
-  // own defaults: {{"shading", "vsgl14"}}. Null: nothing.
+  // own defaults: {{"shading", "filtered"}}. Null: nothing.
   Json case_defaults;
   // Optional features that the device must have, as `vsglbench list devices` names them.
   std::vector<std::string> device_features;

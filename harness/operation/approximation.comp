@@ -1,9 +1,10 @@
 #version 460
 // One light at one surface a row, by the functions that the pixels call. MODE 0: a VSGL. 1: a cancelled pair;
 // w = 1 where bias reduction at `alpha` cancels it. 2: a virtual spherical light, `runs` independent
-// estimates a row.
+// estimates a row. 3: a VSGL by filtered BRDFs.
 #include "types.h"
 layout(local_size_x = 64) in;
+#include "filtered_shading.glsl"
 #include "vsgl_shading.glsl"
 #if MODE == 2
 #include "vsl_shading.glsl"
@@ -28,6 +29,12 @@ void main() {
   Receiver r = make_receiver(surface);
   values[i] =
       vec4(shade_cancelled(r, lights[row], texels[row]), is_cancelled(r, lights[row], alpha) ? 1.0 : 0.0);
+#elif MODE == 3
+  Vsgl light = lights[row];
+  Vpl t = texels[row];
+  FilteredLight f = FilteredLight(light.mean, light.variance, t.normal, t.flux * t.diffuse / PI, t.ndf,
+                                  t.incident, t.flux, t.f0);
+  values[i] = vec4(shade_filtered(surface, f), 0.0);
 #else
   values[i] = vec4(shade_vsl(surface, texels[row], random_hash(uvec2(i, 77u))), 0.0);
 #endif

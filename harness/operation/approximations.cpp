@@ -247,7 +247,7 @@ std::vector<ErrorRow> even_light_errors(ShadingProbe& probe, const std::string& 
                    });
 }
 
-std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
+std::vector<ErrorRow> exact_brdf_errors(ShadingProbe& probe, ProbeMode mode) {
   std::vector<PairRow> rows;
   for (const Material& receiver : {kLambert, kRough, kPhong}) {
     for (const Material& emitter : {kLambert, kRough, kPhong}) {
@@ -262,18 +262,17 @@ std::vector<ErrorRow> cancelled_errors(ShadingProbe& probe) {
       }
     }
   }
-  return errors_of(
-      probe, rows, ProbeMode::cancelled, {}, [](const exact::Surface& s, const ShadingPair& pair) {
-        return exact::reflected_radiance(s, exact::incoming_disk(pair.light, pair.texel, s.position), 1e-4)
-            .value.x;
-      });
+  return errors_of(probe, rows, mode, {}, [](const exact::Surface& s, const ShadingPair& pair) {
+    return exact::reflected_radiance(s, exact::incoming_disk(pair.light, pair.texel, s.position), 1e-4)
+        .value.x;
+  });
 }
 
 }  // namespace
 
 const std::vector<std::string>& oracle_names() {
   static const std::vector<std::string> names = {"receiver", "filtered", "isotropic", "emitter",
-                                                 "gaussian", "disk",     "cancelled"};
+                                                 "gaussian", "disk",     "cancelled", "filtered_brdfs"};
   return names;
 }
 
@@ -284,7 +283,8 @@ std::vector<ErrorRow> approximation_errors(Device& device, const std::string& or
   if (oracle == "isotropic") return even_light_errors(probe, "2");
   if (oracle == "emitter") return emitter_errors(probe);
   if (oracle == "gaussian") return gaussian_errors(probe);
-  return oracle == "disk" ? disk_errors(probe) : cancelled_errors(probe);
+  if (oracle == "disk") return disk_errors(probe);
+  return exact_brdf_errors(probe, oracle == "cancelled" ? ProbeMode::cancelled : ProbeMode::filtered);
 }
 
 }  // namespace vsglbench

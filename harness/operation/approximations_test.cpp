@@ -40,7 +40,7 @@ TEST(Approximations, AreGoodWhereTheyShouldBe) {
     const auto& error = receiver.at(std::string("Phong 1023 F0 1 under 1023 ") + place);
     for (size_t k = 0; k + 2 < error.size(); ++k) EXPECT_LT(std::abs(error[k]), 0.03) << place;  // to 60°
   }
-  for (const char* oracle : {"gaussian", "disk", "cancelled"}) {
+  for (const char* oracle : {"gaussian", "disk", "cancelled", "filtered_brdfs"}) {
     for (const auto& [name, error] : tabled_errors(oracle)) {
       if (name.find("d/sigma 100") == std::string::npos && name.find("r/d 0.001") == std::string::npos)
         continue;

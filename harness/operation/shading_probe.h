@@ -14,11 +14,11 @@ namespace vsglbench {
 struct ShadingPair {
   gpu::Vpl surface{};
   gpu::Vsgl light{};
-  gpu::Vpl texel{};  // whose BRDF a cancelled light has; or the virtual spherical light
+  gpu::Vpl texel{};  // whose BRDF a cancelled light has, or a filtered one; or the virtual spherical light
 };
 
 // Modes of approximation.comp.
-enum class ProbeMode { vsgl, cancelled, vsl };
+enum class ProbeMode { vsgl, cancelled, vsl, filtered };
 
 class ShadingProbe {
  public:

@@ -59,6 +59,10 @@ TEST_F(ConfigTest, AMissingPresetAndADiskOfTheFirstModelAreRefused) {
   config_.erase("preset");
   config_["methods"] = {{{"method", "mfis"}, {"shading", {"vsgl16", "vsgl14"}}, {"variance", "disk"}}};
   EXPECT_TRUE(contains(problem(), "shading vsgl14 with variance disk")) << problem();
+  config_["methods"] = {{{"method", "mfis"}, {"shading", {"vsgl16", "filtered"}}, {"variance", "disk"}}};
+  EXPECT_TRUE(contains(problem(), "shading filtered with variance disk")) << problem();
+  config_["methods"] = {{{"method", "cut"}, {"shading", "filtered"}, {"bias_reduction", {0, 0.1}}}};
+  EXPECT_TRUE(contains(problem(), "shading filtered with bias_reduction")) << problem();
 }
 
 // What a preset's file may say is what a config may; the error is of that file.

@@ -198,7 +198,7 @@ class Entry {
         axes_[i].key->read(axes_[i].values.at(index[i]), &c.frame);
     }
     if (keys_.usable() && !vpls) read_own_choices(c.method_parameters, &c.frame);
-    check_variance(c.frame.shading);
+    check_shading(c.frame);
     check_effects(c.frame);
     c.parameters = resolved(c, vpls);
     n.settings = settings(c, index, vpls);
@@ -215,13 +215,22 @@ class Entry {
   }
 
   // The disk of [VSGL14] has r² = 2σ² of the three-dimensional variance: halved, it would be another disk's.
-  void check_variance(const Shading& shading) const {
-    if (shading.empty() || chosen(shading, "shading") != "vsgl14" || chosen(shading, "variance") != "disk")
-      return;
-    throw doc_.error(
-        at_,
-        "makes a case of shading vsgl14 with variance disk, which vsgl14 has no use for: its r² = 2σ² "
-        "takes the 3d variance; sweep the two in entries of their own");
+  // Filtered BRDFs are exact already, where bias reduction would have them so.
+  void check_shading(const FrameParameters& frame) const {
+    if (frame.shading.empty()) return;
+    const std::string model = chosen(frame.shading, "shading");
+    if (model != "vsgl16" && chosen(frame.shading, "variance") == "disk") {
+      throw doc_.error(
+          at_, fmt::format("makes a case of shading {} with variance disk, which it has no use for: its r² = "
+                           "2σ² takes the 3d variance; sweep the two in entries of their own",
+                           model));
+    }
+    if (model == "filtered" && frame.bias_reduction > 0) {
+      throw doc_.error(
+          at_,
+          "makes a case of shading filtered with bias_reduction, which has nothing to reduce: its "
+          "BRDFs are exact; sweep the two in entries of their own");
+    }
   }
 
   void check_effects(const FrameParameters& frame) const {

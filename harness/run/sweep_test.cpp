@@ -43,7 +43,8 @@ TEST_F(ConfigTest, AMethodsOwnDefaultsGiveWayToTheConfig) {
   const auto value = [&](size_t i, const char* key) { return load().cases.at(i).parameters.at(key); };
   EXPECT_EQ(value(0, "shading"), "vsgl16");
   EXPECT_EQ(value(0, "importance_lights"), 2048);
-  EXPECT_EQ(value(1, "shading"), "vsgl14");
+  EXPECT_EQ(value(1, "shading"), "filtered");
+  EXPECT_EQ(value(1, "light_clearance"), "sigma");
   EXPECT_EQ(value(1, "importance_lights"), 128);
   config_["importance_lights"] = 512;
   EXPECT_EQ(value(1, "importance_lights"), 512);

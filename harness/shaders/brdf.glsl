@@ -53,6 +53,15 @@ float ndf_value(float ndf, vec3 n, vec3 h) {
   return (2.0 - ndf) / (2.0 * PI) * exp(-0.5 * ndf * log_cos2);
 }
 
+// The NDF under a light that is as wide, over half vectors, as an SG of sharpness λ' = 2/width: a Phong lobe
+// of exponent n becomes one of n λ'/(n+λ'); GGX's α² grows by `width` in projected space, where α²/(1-α²)
+// stands for α² and no lobe is wider than the hemisphere (Tokuyoshi and Kaplanyan 2021).
+float filtered_ndf(float ndf, float width) {
+  if (ndf <= 0.0) return ndf / (1.0 - 0.5 * ndf * width);
+  float slope2 = ndf * ndf / max(1.0 - ndf * ndf, 1e-6) + width;
+  return sqrt(slope2 / (1.0 + slope2));
+}
+
 // f(l,v) n·l; zero unless both directions are above the shading normal's and l above the face's horizon.
 // `lobes`: those that the surface has (types.h), a constant.
 vec3 brdf_cosine(Surface s, vec3 l, int lobes) {

@@ -1,9 +1,13 @@
-// The record of a kind of light, and what every kind says of its place. LIGHT_VPL 1: Vpl, 0: Vsgl.
+// The record of a kind of light, and what every kind says of its place. LIGHT_VPL 1: Vpl, 0: Vsgl, or with
+// LIGHT_FILTERED 1 FilteredLight, which shading alone reads.
 #ifndef VSGLBENCH_LIGHT_RECORD_GLSL
 #define VSGLBENCH_LIGHT_RECORD_GLSL
 
 #include "types.h"
 
+#ifndef LIGHT_FILTERED
+#define LIGHT_FILTERED 0
+#endif
 #if LIGHT_VPL
 #define Light Vpl
 vec3 light_position(Light light) { return light.position; }
@@ -14,6 +18,12 @@ float light_sigma(Light light) { return 0.0; }
 // The same light with its extent, squared, times `factor`.
 Light scaled(Light light, float factor) {
   light.radius *= sqrt(factor);
+  return light;
+}
+#elif LIGHT_FILTERED
+#define Light FilteredLight
+Light scaled(Light light, float factor) {
+  light.variance *= factor;
   return light;
 }
 #else

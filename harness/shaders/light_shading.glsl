@@ -5,6 +5,10 @@
 #include "vpl_shading.glsl"
 #define Shader Surface
 Shader make_shader(Surface s) { return s; }
+#elif LIGHT_FILTERED
+#include "filtered_shading.glsl"
+#define Shader Surface
+Shader make_shader(Surface s) { return s; }
 #else
 #include "vsgl_shading.glsl"
 #define Shader Receiver
@@ -25,6 +29,8 @@ vec3 shade_light(Shader s, Light light, uint random, inout float removed) {
   return shade_vsl(s, light, random);
 #elif LIGHT_VPL
   return shade_vpl(s, light, removed);
+#elif LIGHT_FILTERED
+  return shade_filtered(s, light);
 #else
   return shade_vsgl(s, light);
 #endif

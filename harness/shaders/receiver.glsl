@@ -56,22 +56,12 @@ float receiver_asg(Receiver r, Sg sg) {
 
 // The same by filtering the NDF: over the half vector the light's SG has the sharpness 4 (v·h) λ (the
 // Jacobian of the reflection, 1/(4 v·h), is taken as equal in both directions, where it is 1/4 and 1/(4
-// (v·h)²)), and widens D. A Phong lobe of exponent n becomes one of n λ'/(n+λ'). GGX's α² grows by 2/λ' in
-// projected space, where α²/(1-α²) stands for α² and no lobe is wider than the hemisphere (Tokuyoshi and
-// Kaplanyan 2021). As λ → ∞ it is D(h) itself; under wide lights it is too bright, by up to 50 %
-// (harness/operation/approximations.csv, `filtered`), more at grazing views. Above a sharpness of 2^41
-// nothing widens.
+// (v·h)²)). As λ → ∞ it is D(h) itself; under wide lights it is too bright, by up to 50 %
+// (harness/operation/approximations.csv, `filtered`), more at grazing views.
 float receiver_filtered(Receiver r, Sg sg, float vh) {
   float wide = max(4.0 * vh * sg.sharpness, 1e-6);
   vec3 h = safe_normalize(sg.axis + r.surface.view, r.surface.normal);
-  float ndf = r.surface.ndf;
-  if (ndf > 0.0) {
-    float slope2 = ndf * ndf / max(1.0 - ndf * ndf, 1e-6) + 2.0 / wide;
-    ndf = sqrt(slope2 / (1.0 + slope2));
-  } else {
-    ndf = ndf * (wide / (wide - ndf));
-  }
-  return sg_integral(sg.sharpness) * ndf_value(ndf, r.surface.normal, h);
+  return sg_integral(sg.sharpness) * ndf_value(filtered_ndf(r.surface.ndf, 2.0 / wide), r.surface.normal, h);
 }
 
 // The same by one SG about the mirror direction, of sharpness λh/(4 n·v) [VSGL15s App. A; MFIS16 App. A.1]:

@@ -77,12 +77,14 @@ dvec3 shade_sg(const Surface& s, const Lobe& lobe, const dvec3& axis, double sha
 
 // A light from a surface, with the floors of distance and σ².
 struct Sight {
-  Sight(const Surface& s, const gpu::Vsgl& light, bool disk) {
-    const dvec3 to_mean = dvec3(light.mean) - s.position;
+  Sight(const Surface& s, const dvec3& mean, double given_variance) {
+    const dvec3 to_mean = mean - s.position;
     distance2 = std::max(glm::dot(to_mean, to_mean), kLeastDistance2);
     direction = to_mean / std::sqrt(distance2);
-    variance = std::max((disk ? 0.5 : 1) * static_cast<double>(light.variance), distance2 * kLeastVariance);
+    variance = std::max(given_variance, distance2 * kLeastVariance);
   }
+  Sight(const Surface& s, const gpu::Vsgl& light, bool disk)
+      : Sight(s, light.mean, (disk ? 0.5 : 1) * static_cast<double>(light.variance)) {}
   // The disk that the light is seen as has r² = 2σ² [VSGL14 §3.1]: 2π(1-cosθ) = 4π sin²(θ/2), tan θ = r/d.
   double radius2() const { return 2 * variance; }
   double solid_angle() const {
@@ -177,6 +179,35 @@ double cancelling_alpha(const Surface& s, const gpu::Vsgl& light) {
 dvec3 shade_cancelled(const Surface& s, const gpu::Vsgl& light, const gpu::Vpl& texel) {
   const Sight to(s, light, false);
   return rho(s, texel, to.direction) * to.solid_angle() / (pi * to.radius2());
+}
+
+namespace {
+
+Surface filtered(Surface s, const dvec3& l, double disk_sharpness) {
+  const double half_angle_cosine =
+      std::max(std::cos(0.5 * std::acos(std::clamp(glm::dot(l, s.view), -1.0, 1.0))), 1e-3);
+  const double sharpness = 4 * half_angle_cosine * disk_sharpness;
+  if (s.ndf > 0) {
+    const double projected = square(s.ndf) / std::max(1 - square(s.ndf), 1e-6) + 2 / sharpness;
+    s.ndf = std::sqrt(projected / (1 + projected));
+  } else {
+    s.ndf = -1 / (1 / -s.ndf + 1 / sharpness);
+  }
+  return s;
+}
+
+}  // namespace
+
+dvec3 shade_filtered(const Surface& s, const gpu::FilteredLight& light) {
+  const Sight to(s, light.mean, light.variance);
+  const double sharpness = 4 * pi / to.solid_angle();
+  const dvec3 normal(light.normal);
+  const Surface mirror{light.mean, normal, normal, light.incident, dvec3(0), light.f0, light.ndf};
+  const dvec3 emitted =
+      dvec3(light.diffuse) * std::max(glm::dot(-to.direction, normal), 0.0) +
+      dvec3(light.flux) * brdf_cosine(filtered(mirror, -to.direction, sharpness), -to.direction);
+  const dvec3 reflected = brdf_cosine(filtered(s, to.direction, sharpness), to.direction);
+  return emitted * reflected * to.solid_angle() / (pi * to.radius2());
 }
 
 dvec3 shade_vpl(const Surface& s, const gpu::Vpl& light) {

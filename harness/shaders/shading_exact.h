@@ -68,6 +68,11 @@ glm::dvec3 shade_cancelled(const Surface& surface, const gpu::Vsgl& light, const
 // Φ f(x2) f(x1) cos cos / d² [VSGL14 Eq. 1]; 0 for a light of no power, or at the surface itself.
 glm::dvec3 shade_vpl(const Surface& surface, const gpu::Vpl& light);
 
+// ρ(ω_i) |Ω|/(πr²) as above, each NDF filtered by the disk: over half vectors that has the sharpness
+// λ' = 4 (v·h) 4π/|Ω| with v·h at least 1e-3, by which GGX's α²/(1-α²) grows by 2/λ' (1-α² at least 1e-6) and
+// a Phong exponent n becomes n λ'/(n+λ').
+glm::dvec3 shade_filtered(const Surface& surface, const gpu::FilteredLight& light);
+
 // A virtual spherical light's ∫ρ(ω)V(ω)dω / (πr²) [VSGL14 Eq. 2] over the cone of half angle asin(r/d), π/2
 // inside the sphere, by adaptive quadrature to `relative_error`, or as near as 200 thousand evaluations come.
 // 0 for a light of no power or radius.

@@ -80,6 +80,23 @@ struct Vpl {
 #endif
 };
 
+// A VSGL as `shading` filtered evaluates it: at its mean, the exact BRDF of the RSM's texel there
+// (frame/filtered_lights.comp). It has no power where all of its colours are 0.
+struct FilteredLight {
+  vec3 mean;       // metres
+  float variance;  // metres², 3-D
+  vec3 normal;     // unit
+#if LIGHT_LOBES & DIFFUSE_LOBE
+  vec3 diffuse;  // Φ Rd/π, W/sr
+#endif
+#if LIGHT_LOBES & SPECULAR_LOBE
+  float ndf;      // > 0: GGX alpha; < 0: minus the Phong exponent
+  vec3 incident;  // unit, from the surface towards the primary light, above its horizon
+  vec3 flux;      // incident, W
+  vec3 f0;        // F0
+#endif
+};
+
 // What emits into a half: the primary light (RSM), or the eye (G-buffer; importance 1/pixels each).
 struct Emitter {
   vec3 position;
@@ -116,7 +133,8 @@ struct Vertex {
   vec4 tangent;
   vec2 uv;
 };
-static_assert(sizeof(Vsgl) == 80 && sizeof(Vpl) == 112 && sizeof(Emitter) == 88 && sizeof(DrawPush) == 112);
+static_assert(sizeof(Vsgl) == 80 && sizeof(Vpl) == 112 && sizeof(FilteredLight) == 80 &&
+              sizeof(Emitter) == 88 && sizeof(DrawPush) == 112);
 static_assert(sizeof(Vertex) == 48);
 }  // namespace vsglbench::gpu
 #endif

@@ -3,13 +3,8 @@
 #ifndef VSGLBENCH_VSGL14_SHADING_GLSL
 #define VSGLBENCH_VSGL14_SHADING_GLSL
 
+#include "disk.glsl"
 #include "receiver.glsl"
-
-// |Ω|/(πr²) = 2(1-cosθ)/r² with cosθ = d/√(d²+r²), without its cancellation, 1/m².
-float solid_angle_over_area(float distance, float radius2) {
-  float h = sqrt(distance * distance + radius2);
-  return 2.0 / (h * (h + distance));
-}
 
 vec3 shade_vsgl14(Receiver r, Vsgl light, vec3 direction, float distance2, float variance) {
   float radius2 = 2.0 * variance;

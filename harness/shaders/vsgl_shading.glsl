@@ -2,12 +2,14 @@
 #ifndef VSGLBENCH_VSGL_SHADING_GLSL
 #define VSGLBENCH_VSGL_SHADING_GLSL
 
+#include "disk.glsl"
 #include "receiver.glsl"
 #include "sg_diffuse.glsl"
 #include "vpl_shading.glsl"
 #include "vsgl14_shading.glsl"
 
-// Which model: 0 vsgl16 [MFIS16 App. C, VSGL15s App. B], 1 vsgl14 [VSGL14 §3.1].
+// Which model: 0 vsgl16 [MFIS16 App. C, VSGL15s App. B]; 1 vsgl14 [VSGL14 §3.1]; 2 filtered, whose
+// pixels have lights of their own (filtered_shading.glsl): importance is by vsgl14.
 #ifndef SHADING_MODEL
 #define SHADING_MODEL 0
 #endif
@@ -57,19 +59,13 @@ float shading_variance(Vsgl light, float distance2) {
   return max(variance, distance2 * 4.5474735e-13);
 }
 
-// r² of the disk that a light is seen as: 2σ² of the variance in three dimensions [VSGL14 §3.2], whatever
-// VARIANCE says.
-float disk_radius2(Vsgl light, float distance2) {
-  return 2.0 * max(light.variance, distance2 * 4.5474735e-13);
-}
-
 // A light of no power gives black, whatever its other fields hold.
 vec3 shade_vsgl(Receiver r, Vsgl light) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
   vec3 direction = to_mean * inversesqrt(distance2);
   float variance = shading_variance(light, distance2);
-#if SHADING_MODEL == 1
+#if SHADING_MODEL >= 1
   vec3 sum = shade_vsgl14(r, light, direction, distance2, variance);
 #else
   vec3 sum = shade_vsgl16(r, light, direction, distance2, variance);
@@ -84,7 +80,7 @@ vec3 shade_vsgl(Receiver r, Vsgl light) {
 bool is_cancelled(Receiver r, Vsgl light, float alpha) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
-  float radius2 = disk_radius2(light, distance2);
+  float radius2 = disk_radius2(light.variance, distance2);
   float receiver = 0.0, emitter = 0.0;
 #if SURFACE_LOBES & SPECULAR_LOBE
   vec3 f0 = r.surface.f0;
@@ -100,7 +96,7 @@ bool is_cancelled(Receiver r, Vsgl light, float alpha) {
 vec3 shade_cancelled(Receiver r, Vsgl light, Vpl texel) {
   vec3 to_mean = light.mean - r.surface.position;
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
-  float radius2 = disk_radius2(light, distance2);
+  float radius2 = disk_radius2(light.variance, distance2);
   return vpl_rho(r.surface, texel, to_mean * inversesqrt(distance2)) *
          solid_angle_over_area(sqrt(distance2), radius2);
 }

@@ -11,9 +11,13 @@ namespace vsglbench {
 class MadeShading {
  public:
   explicit MadeShading(KernelLibrary& kernels) : kernels_(kernels), recorder_(kernels.device()) {}
-  // Radiance at each texel of `receivers`, row-major, whose emitter is the eye.
-  std::vector<glm::vec3> shade(const oracle::Half& receivers, const LightRecords& lights,
-                               const Shading& shading);
+  struct Shaded {
+    std::vector<glm::vec3> radiance;  // at each texel of `receivers`, row-major, whose emitter is the eye
+    std::vector<gpu::FilteredLight> filtered;  // what it is by, where `shading` is filtered
+  };
+  // `rsm`: what the lights were made of.
+  Shaded shade(const oracle::Half& receivers, const DeviceHalf& rsm, const LightRecords& lights,
+               const Shading& shading);
 
  private:
   KernelLibrary& kernels_;

@@ -33,6 +33,9 @@ dvec3 shade(const exact::Surface& s, const gpu::Vsgl& light, const exact::VsglSh
 dvec3 shade(const exact::Surface& s, const gpu::Vpl& light, const exact::VsglShading&) {
   return exact::shade_vpl(s, light);
 }
+dvec3 shade(const exact::Surface& s, const gpu::FilteredLight& light, const exact::VsglShading&) {
+  return exact::shade_filtered(s, light);
+}
 
 // Numbers that are off by up to one rounding.
 class Noise {
@@ -75,7 +78,14 @@ gpu::Vpl rounded(gpu::Vpl l, Noise& noise) {
   noise.scale(&l.ndf);
   return l;
 }
+gpu::FilteredLight rounded(gpu::FilteredLight l, Noise& noise) {
+  noise.turn(&l.normal);
+  noise.turn(&l.incident);
+  noise.scale(&l.ndf);
+  return l;
+}
 
+const glm::vec3& position_of(const gpu::FilteredLight& l) { return l.mean; }
 const glm::vec3& position_of(const gpu::Vsgl& l) { return l.mean; }
 const glm::vec3& position_of(const gpu::Vpl& l) { return l.position; }
 
@@ -187,9 +197,11 @@ void check_possible(std::span<const glm::vec3> pixels, bool black, Judgement* ve
 }  // namespace
 
 void check_shading(const oracle::Half& receivers, std::span<const glm::vec3> pixels,
-                   const LightRecords& lights, const std::optional<exact::VsglShading>& shading, bool black,
-                   Judgement* verdict) {
-  if (lights.kind == LightKind::vsgl && shading) {
+                   const LightRecords& lights, std::vector<gpu::FilteredLight> filtered,
+                   const std::optional<exact::VsglShading>& shading, bool black, Judgement* verdict) {
+  if (!filtered.empty()) {
+    check(receivers, pixels, Exactly(std::move(filtered), {}), black, verdict);
+  } else if (lights.kind == LightKind::vsgl && shading) {
     check(receivers, pixels, Exactly(lights.all<gpu::Vsgl>(), *shading), black, verdict);
   } else if (lights.kind == LightKind::vpl) {
     check(receivers, pixels, Exactly(lights.all<gpu::Vpl>(), {}), black, verdict);

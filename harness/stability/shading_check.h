@@ -23,9 +23,9 @@ namespace vsglbench {
 // implementation, and such an error counts as 1e-3 a rounding. s is looked at only where the error is above
 // kOkError without it. Radiance below single precision's normal numbers counts as 0. `black`: all pixels must
 // be 0. Lights whose shading has no double form (VSLs, which are sampled; no `shading`) are held to that and
-// to be finite and not negative.
+// to be finite and not negative. `filtered`: what the pixels are by where the shading is filtered, else none.
 void check_shading(const oracle::Half& receivers, std::span<const glm::vec3> pixels,
-                   const LightRecords& lights, const std::optional<exact::VsglShading>& shading, bool black,
-                   Judgement* verdict);
+                   const LightRecords& lights, std::vector<gpu::FilteredLight> filtered,
+                   const std::optional<exact::VsglShading>& shading, bool black, Judgement* verdict);
 
 }  // namespace vsglbench

@@ -13,11 +13,13 @@ namespace {
 
 constexpr uint32_t kShifts = 8;  // of the lattice, for the lights' mean power
 
-// The shading of VSGLs: the diffuse model, and what the row's parameters say.
-Shading shading_of(const StabilityRow& row, const std::string& diffuse) {
+// The shading of VSGLs: the diffuse model, and what the row's parameters or the method's defaults say.
+Shading shading_of(const StabilityRow& row, const MethodInfo& method, const std::string& diffuse) {
   Shading shading;
+  const Json defaults = method.case_defaults.is_null() ? Json::object() : method.case_defaults;
   for (const ShadingAxis& axis : shading_axes()) {
-    const Json chosen = axis.key == "diffuse" ? Json(diffuse) : row.parameters.value(axis.key, Json());
+    const Json own = row.parameters.value(axis.key, defaults.value(axis.key, Json()));
+    const Json chosen = axis.key == "diffuse" ? Json(diffuse) : own;
     if (chosen.is_string() && std::ranges::count(axis.choices, chosen.get<std::string>()) > 0)
       shading[axis.key] = chosen;
   }
@@ -159,9 +161,10 @@ std::vector<StabilityCell> Trial::run_half(const HardCase& hard_case, const Stab
   std::vector<StabilityCell> cells;
   for (const std::string& diffuse : models_of(hard_case, row)) {
     Judgement all = verdict;
-    const Shading shading = shading_of(row, diffuse);
-    const auto pixels = shading_.shade(receivers, first, shading);
-    check_shading(receivers, pixels, first, exact_shading(shading), powerless, &all);
+    const Shading shading = shading_of(row, method, diffuse);
+    const auto shaded = shading_.shade(receivers, texels, first, shading);
+    check_shading(receivers, shaded.radiance, first, shaded.filtered, exact_shading(shading), powerless,
+                  &all);
     cells.push_back(all.cell(hard_case.name, row.name, diffuse));
   }
   return cells;
@@ -182,7 +185,7 @@ StabilityCell Trial::run_scene(const HardCase& hard_case, const StabilityRow& ro
                       .lights = c.lights,
                       .importance_lights = 32,
                       .visibility = Visibility::none};
-    p.shading = shading_of(row, diffuse);
+    p.shading = shading_of(row, method, diffuse);
     const Json parameters = resolve_parameters(method, row.parameters);
     Frame frame(stage, method, parameters, p, nullptr);
     if (!hard_case.refusal.empty()) verdict.bad("accepted; it must be refused");
@@ -197,8 +200,8 @@ StabilityCell Trial::run_scene(const HardCase& hard_case, const StabilityRow& ro
       rsm.pdf.resize(rsm.texels.size(), 1);
       const LightRecords lights = frame.results().lights();
       check_lights({rsm, method, parameters, lattice_shift(0)}, lights, &verdict);
-      check_shading(gbuffer, frame.results().indirect().pixels, lights, exact_shading(p.shading), false,
-                    &verdict);
+      check_shading(gbuffer, frame.results().indirect().pixels, lights, frame.results().filtered_lights(),
+                    exact_shading(p.shading), false, &verdict);
     }
   } catch (const Error& e) {
     const std::string what = e.what();

@@ -34,10 +34,11 @@ VSGLBENCH_METHOD(MethodInfo{
     .makes_vpls = {{"shading", "exact"}},
     .parameters = {{"shading",
                     "exact",
-                    "exact: both BRDFs; vsgl16, vsgl14: each texel's SG lobes [MFIS16 App. C; VSGL14 §3.1]",
+                    "exact: both BRDFs; vsgl16, vsgl14: each texel's SG lobes [MFIS16 App. C; VSGL14 §3.1]; "
+                    "filtered: both BRDFs under a disk as large as the texel",
                     0,
                     0,
-                    {"exact", "vsgl16", "vsgl14"}}},
+                    {"exact", "vsgl16", "vsgl14", "filtered"}}},
     .flux_bound = 1e-5,
     .light_rule = LightRule::texel,
     .create = [](MethodContext& context, const Json& parameters) -> std::unique_ptr<Method> {

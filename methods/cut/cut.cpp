@@ -21,7 +21,6 @@ constexpr uint32_t kSpareRounds = 4;
 // Rounds in which a workgroup splits one node: they have few. Later an invocation does.
 constexpr uint32_t kHeapRounds = 8, kHeap = 1u << kHeapRounds;
 constexpr uint32_t kNodes = 64;  // nodes of a workgroup then
-const glm::uvec2 kBlock(4, 4);   // texels that one invocation takes down the tree
 
 class Cut : public Method {
  public:
@@ -35,8 +34,7 @@ class Cut : public Method {
         root_(context.kernel("cut_root.comp", wide(context))),
         split_one_(context.kernel("cut_split.comp", wide(context))),
         split_many_(context.kernel("cut_split.comp", {{"LANES", "1"}, {"NODES", fmt::format("{}", kNodes)}})),
-        assign_(context.kernel("cut_assign.comp", {{"BLOCK_X", fmt::format("{}u", kBlock.x)},
-                                                   {"BLOCK_Y", fmt::format("{}u", kBlock.y)}})) {}
+        assign_(context.kernel("cut_assign.comp")) {}
 
   LightKind kind() const override { return LightKind::vsgl; }
 
@@ -116,9 +114,9 @@ class Cut : public Method {
       uint32_t count;
       float direction;
     } push{field.emitter, target.count, direction_};
-    r.dispatch(
-        assign_, {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
-        push, groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));
+    r.dispatch(assign_,
+               {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
+               push, groups_for(field.emitter.width, 8), groups_for(field.emitter.height, 8));
   }
 
   ClusterSum::SortedTexels sort(Recorder& r, const Field& field, uint32_t clusters, const Buffer& ids) {
@@ -149,7 +147,7 @@ VSGLBENCH_METHOD(MethodInfo{
     .parameters =
         {{"direction", 0.5, "what a unit normal counts, in RMS distances of the samples", 0.0, 100.0, {}},
          {"samples", 4, "samples of the PDF a light that the tree is made of", 1, 64, {}}},
-    .case_defaults = {{"shading", "vsgl14"}, {"importance_lights", 128}},
+    .case_defaults = {{"shading", "filtered"}, {"light_clearance", "sigma"}, {"importance_lights", 128}},
     .flux_bound = 1e-4,  // every texel is in one leaf
     .create = [](MethodContext& context, const Json& p) -> std::unique_ptr<Method> {
       return std::make_unique<Cut>(context, p.at("direction").get<float>(), p.at("samples").get<uint32_t>());
