@@ -76,8 +76,8 @@ std::string ratios(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += std::log(v);
   const auto [least, most] = std::ranges::minmax(values);
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}] of {}", std::exp(sum / static_cast<double>(values.size())), least,
-                     most, values.size());
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}] of {}", std::exp(sum / static_cast<double>(values.size())),
+                     least, most, values.size());
 }
 
 }  // namespace
@@ -118,7 +118,8 @@ std::string rivalry_table(const std::vector<Rivalry>& rivalries) {
     head += fmt::format(" {}: not dominated / can't be told / dominated |", m);
     rule += " ---: |";
   }
-  std::string text = fmt::format("{} {} at equal time, papers' VSGLs = 1 |\n{} ---: |\n", head, metrics[0], rule);
+  std::string text =
+      fmt::format("{} {} at equal time, papers' VSGLs = 1 |\n{} ---: |\n", head, metrics[0], rule);
   std::string lines;
   for (size_t i = 0; i < rivalries.size();) {
     const Rivalry& first = rivalries[i];

@@ -12,22 +12,23 @@ namespace vsglbench {
 // method's dominates, and by how much it errs at equal time.
 struct Rivalry {
   std::string scene, visibility, metric;
-  size_t undominated = 0;               // no point of another method may dominate them
-  std::vector<std::string> ambiguous;   // "N=64 by mfis N=256": better by the estimates, not beyond the intervals
-  std::vector<std::string> dominated;   // the same, beyond the intervals and the A/A noise
+  size_t undominated = 0;  // no point of another method may dominate them
+  std::vector<std::string>
+      ambiguous;  // "N=64 by mfis N=256": better by the estimates, not beyond the intervals
+  std::vector<std::string> dominated;  // the same, beyond the intervals and the A/A noise
   // Error of each of its points over that of the papers' VSGL methods at equal time, read off their staircase
   // in log-log; points that none of theirs lies on either side of are left out. Those are the cases of other
   // methods with `shading` vsgl14 or vsgl16, but for all-texels.
   std::vector<double> at_equal_time;
 };
 
-// Every group of the report that has the method, metric by metric. Throws Error(usage) where it has none, naming
-// the nearest, or where the report lacks a metric or the time.
+// Every group of the report that has the method, metric by metric. Throws Error(usage) where it has none,
+// naming the nearest, or where the report lacks a metric or the time.
 std::vector<Rivalry> rivalries(const Report& report, const std::string& method,
                                const std::vector<std::string>& metrics, const std::string& time);
 
-// A table of Markdown, a row a group: a count of each kind for each metric, and the geometric mean and range at
-// equal time by the first metric. Then a line for each dominated point.
+// A table of Markdown, a row a group: a count of each kind for each metric, and the geometric mean and range
+// at equal time by the first metric. Then a line for each dominated point.
 std::string rivalry_table(const std::vector<Rivalry>& rivalries);
 
 }  // namespace vsglbench

@@ -24,8 +24,8 @@ TEST(Rivals, StandingsAndErrorsAtEqualTime) {
   made.add(at("mfis", 256, 40, 10, "vsgl16"));
   made.add(at("mfis", 512, 20, 1000, "filtered"));  // no paper's shading: not on that staircase
   made.add(at("vpl", 64, 18, 12));
-  made.add(at("cut", 64, 20, 16, "filtered"));   // dominated by vpl; 16 of the papers' 20
-  made.add(at("cut", 16, 5, 50, "filtered"));    // not dominated; no paper's point is as cheap
+  made.add(at("cut", 64, 20, 16, "filtered"));     // dominated by vpl; 16 of the papers' 20
+  made.add(at("cut", 16, 5, 50, "filtered"));      // not dominated; no paper's point is as cheap
   made.add(at("cut", 256, 30, 13.2, "filtered"));  // dominated, too; 13.2 of the papers' 13.33
   const auto all = rivalries(made.report, "cut", {"smape"}, "method");
   ASSERT_EQ(all.size(), 1u);

@@ -30,6 +30,8 @@ TEST_F(CliTest, CommittedAnswersAndClaimsAreThoseOfTheirReports) {
                     front = reports + "front-lavapipe";
   EXPECT_EQ(run({"answer", front}).out, read_text(front + "/answer.txt"));
   EXPECT_EQ(run({"claims", front, "--markdown"}).out, read_text(front + "/claims.md"));
+  const std::string own = reports + "own-lavapipe";
+  EXPECT_EQ(run({"answer", own, "--method", "cut"}).out, read_text(own + "/verdicts.md"));
 }
 
 TEST_F(CliTest, AnalyseWritesIntoTheReport) {

@@ -1,6 +1,7 @@
-// VSGLs as `shading` filtered evaluates them: each with the material of the RSM's texel at its mean and with all of its
-// own power, turned as its surfaces are on average, its normal distribution wider by what its lobe is wider than
-// that texel's. Where the primary light sees no surface at the mean, the light is a Lambert surface.
+// VSGLs as `shading` filtered evaluates them: each with the material of the RSM's texel at its mean and with
+// all of its own power, turned as its surfaces are on average, its normal distribution wider by what its lobe
+// is wider than that texel's. Where the primary light sees no surface at the mean, the light is a Lambert
+// surface.
 #version 460
 #include "types.h"
 layout(local_size_x = 64) in;
@@ -48,7 +49,8 @@ void main() {
   reflectance += specular_reflectance(t.surface);
   vec3 incident =
       emitter.perspective != 0u ? safe_normalize(emitter.position - light.mean, f.normal) : -emitter.forward;
-  // A lit surface faces the primary light; where the mean of many doesn't quite, it is lit at a grazing angle.
+  // A lit surface faces the primary light; where the mean of many doesn't quite, it is lit at a grazing
+  // angle.
   float cosine = dot(f.normal, incident);
   f.incident = cosine < 0.01 ? normalize(incident + (0.01 - cosine) * f.normal) : incident;
   f.flux = surface ? flux_behind(reflected, reflectance) : vec3(0.0);

@@ -18,7 +18,8 @@ bool is_filtered(LightKind kind, const Shading& shading) {
 }
 
 size_t filtered_light_stride(unsigned lobes) {
-  return sizeof(float) * (kCommon + (lobes & DIFFUSE_LOBE ? kDiffuse : 0) + (lobes & SPECULAR_LOBE ? kSpecular : 0));
+  return sizeof(float) *
+         (kCommon + (lobes & DIFFUSE_LOBE ? kDiffuse : 0) + (lobes & SPECULAR_LOBE ? kSpecular : 0));
 }
 
 void record_filtered_lights(Recorder& recorder, KernelLibrary& kernels, const Field& rsm,

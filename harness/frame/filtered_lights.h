@@ -18,7 +18,8 @@ void record_filtered_lights(Recorder& recorder, KernelLibrary& kernels, const Fi
                             const Shading& shading, const ShaderDefines& effects, const Buffer& lights,
                             uint32_t count, const Buffer& filtered);
 
-// As the host has them, with both lobes; the fields of a lobe that the kernel left out are 0, but for a width of 1.
+// As the host has them, with both lobes; the fields of a lobe that the kernel left out are 0, but for a width
+// of 1.
 std::vector<gpu::FilteredLight> read_filtered_lights(const Buffer& filtered, size_t count, unsigned lobes);
 
 }  // namespace vsglbench

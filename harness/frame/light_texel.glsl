@@ -1,5 +1,5 @@
-// The RSM texel at a light's mean, and the flux behind the power that the light reflects. The including file has
-// `emitter`, the RSM's, and field.glsl.
+// The RSM texel at a light's mean, and the flux behind the power that the light reflects. The including file
+// has `emitter`, the RSM's, and field.glsl.
 #ifndef VSGLBENCH_LIGHT_TEXEL_GLSL
 #define VSGLBENCH_LIGHT_TEXEL_GLSL
 

@@ -1,10 +1,10 @@
 // One VSGL at one surface by the exact BRDFs of both ends, their normal distributions filtered; without
 // visibility. The light is the disk of r² = 2σ² that [VSGL14 §3.1] sees it as. Of ∫ρ(ω)V(ω)dω/(πr²)
 // [VSGL14 Eq. 2], ρ is pulled out of the integral, as the consistent bias reduction does where ρ is smooth
-// against the disk [VSGL14 §3.3]; here ρ is made smooth: over half vectors each NDF is as wide as itself and the
-// disk together. As σ → 0 it is the point light [VSGL14 Eq. 1]. Against the integral it errs by 1 % and less
-// where r is 0.03 d and no angle is grazing, and is too bright by 4 % (Lambert) to 55 % (lobes) where r is 0.3 d
-// (harness/operation/approximations.csv, `filtered_brdfs`).
+// against the disk [VSGL14 §3.3]; here ρ is made smooth: over half vectors each NDF is as wide as itself and
+// the disk together. As σ → 0 it is the point light [VSGL14 Eq. 1]. Against the integral it errs by 1 % and
+// less where r is 0.03 d and no angle is grazing, and is too bright by 4 % (Lambert) to 55 % (lobes) where r
+// is 0.3 d (harness/operation/approximations.csv, `filtered_brdfs`).
 #ifndef VSGLBENCH_FILTERED_SHADING_GLSL
 #define VSGLBENCH_FILTERED_SHADING_GLSL
 
@@ -33,7 +33,8 @@ vec3 shade_filtered(Surface s, FilteredLight light) {
   emitted += light.diffuse * max(dot(-direction, light.normal), 0.0);
 #endif
 #if LIGHT_LOBES & SPECULAR_LOBE
-  Surface mirror = Surface(light.mean, light.normal, light.normal, light.incident, vec3(0.0), light.f0, light.ndf);
+  Surface mirror =
+      Surface(light.mean, light.normal, light.normal, light.incident, vec3(0.0), light.f0, light.ndf);
   emitted += light.flux * filtered_brdf_cosine(mirror, -direction, spread, SPECULAR_LOBE);
 #endif
   return per_area * emitted * filtered_brdf_cosine(s, direction, spread, SURFACE_LOBES);
