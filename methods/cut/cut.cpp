@@ -21,6 +21,7 @@ constexpr uint32_t kSpareRounds = 4;
 // Rounds in which a workgroup splits one node: they have few. Later an invocation does.
 constexpr uint32_t kHeapRounds = 8, kHeap = 1u << kHeapRounds;
 constexpr uint32_t kNodes = 64;  // nodes of a workgroup then
+const glm::uvec2 kBlock(4, 4);   // texels that one invocation takes down the tree
 
 class Cut : public Method {
  public:
@@ -34,7 +35,8 @@ class Cut : public Method {
         root_(context.kernel("cut_root.comp", wide(context))),
         split_one_(context.kernel("cut_split.comp", wide(context))),
         split_many_(context.kernel("cut_split.comp", {{"LANES", "1"}, {"NODES", fmt::format("{}", kNodes)}})),
-        assign_(context.kernel("cut_assign.comp")) {}
+        assign_(context.kernel("cut_assign.comp", {{"BLOCK_X", fmt::format("{}u", kBlock.x)},
+                                                   {"BLOCK_Y", fmt::format("{}u", kBlock.y)}})) {}
 
   LightKind kind() const override { return LightKind::vsgl; }
 
@@ -114,9 +116,9 @@ class Cut : public Method {
       uint32_t count;
       float direction;
     } push{field.emitter, target.count, direction_};
-    r.dispatch(assign_,
-               {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
-               push, groups_for(field.emitter.width, 8), groups_for(field.emitter.height, 8));
+    r.dispatch(
+        assign_, {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
+        push, groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));
   }
 
   ClusterSum::SortedTexels sort(Recorder& r, const Field& field, uint32_t clusters, const Buffer& ids) {
