@@ -103,7 +103,12 @@ void main() {
 #endif
 
   out_position = vec4(position, 1.0);
-  out_normal.w = draw.phong_exponent > 0.0 ? -draw.phong_exponent : max(roughness * roughness, 1e-3);
+  float alpha = max(roughness * roughness, 1e-3);
+#if PHONG_LOBES
+  out_normal.w = draw.phong_exponent > 0.0 ? -draw.phong_exponent : alpha;
+#else
+  out_normal.w = draw.phong_exponent > 0.0 ? max(sqrt(2.0 / (2.0 + draw.phong_exponent)), 1e-3) : alpha;
+#endif
 #if NO_LOBE
   out_diffuse = vec4(0.0);
 #elif SURFACE_LOBES & DIFFUSE_LOBE

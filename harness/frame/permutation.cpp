@@ -36,6 +36,7 @@ ShaderDefines permutation(const EffectSet& effects, Half surfaces, Half lights) 
   if (const unsigned lobes = lobes_of(effects, lights); lobes != both)
     defines["LIGHT_LOBES"] = std::to_string(lobes);
   if (has_face_normals(effects)) defines["FACE_NORMALS"] = "1";
+  if (!effects.has(Effect::phong_lobes)) defines["PHONG_LOBES"] = "0";
   return defines;
 }
 

@@ -6,6 +6,7 @@
 //                               (shaders/types.h): of each half those that *_receivers (G-buffer) and
 //                               *_emitters (RSM) leave
 //   FACE_NORMALS                1 without smooth_normals and normal_maps
+//   PHONG_LOBES                 0 without phong_lobes
 // and, of the rasteriser alone,
 //   BASE_COLOR_TEXTURES, METALLIC_ROUGHNESS_TEXTURES, NORMAL_MAPS, SMOOTH_NORMALS, ALPHA_MASKS
 //                               0 without the effect of that name

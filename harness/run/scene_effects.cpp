@@ -12,6 +12,8 @@ std::vector<std::string> passes_of(Effect effect) {
     case Effect::diffuse_emitters:
     case Effect::glossy_emitters:
       return {"rsm", "importance.rsm", "generate.rsm", "shade"};
+    case Effect::phong_lobes:
+      return {"gbuffer", "rsm", "importance", "generate", "shade"};
     case Effect::occlusion:
       return {"visibility", "shade"};
     case Effect::base_color_textures:

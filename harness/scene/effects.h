@@ -18,6 +18,7 @@ enum class Effect : uint8_t {
   diffuse_emitters,     // the light lights one
   glossy_receivers,     // the camera sees a surface with a specular lobe
   glossy_emitters,      // the light lights one: caustics
+  phong_lobes,          // a lit or seen surface has Phong's normal distribution; without it, GGX of its width
   occlusion,            // something may stand between a lit and a seen surface
   base_color_textures,  // on a lit or seen surface, as are the following
   metallic_roughness_textures,
@@ -28,7 +29,7 @@ enum class Effect : uint8_t {
   moving_light,
   moving_camera,
 };
-inline constexpr unsigned kEffects = 13;
+inline constexpr unsigned kEffects = 14;
 
 // As reports and options name them: the enumerators. In their order.
 const std::vector<std::string>& effect_names();

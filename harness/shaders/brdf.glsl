@@ -39,11 +39,13 @@ float smith_visibility(float nl, float nv, float alpha) {
   return d > 0.0 ? 0.5 / d : 0.0;
 }
 
+bool is_phong(float ndf) { return PHONG_LOBES == 1 && ndf <= 0.0; }
+
 // D(h), with 1-(n·h)² taken from the cross product: near the mirror direction n·h has no digits left.
 float ndf_value(float ndf, vec3 n, vec3 h) {
   vec3 x = cross(n, h);
   float sin2 = min(dot(x, x), 1.0);
-  if (ndf > 0.0) {
+  if (!is_phong(ndf)) {
     float a2 = ndf * ndf;
     float d = sin2 + a2 * (1.0 - sin2);
     return a2 / (PI * d * d);
@@ -57,7 +59,7 @@ float ndf_value(float ndf, vec3 n, vec3 h) {
 // of exponent n becomes one of n λ'/(n+λ'); GGX's α² grows by `width` in projected space, where α²/(1-α²)
 // stands for α² and no lobe is wider than the hemisphere (Tokuyoshi and Kaplanyan 2021).
 float filtered_ndf(float ndf, float width) {
-  if (ndf <= 0.0) return ndf / (1.0 - 0.5 * ndf * width);
+  if (is_phong(ndf)) return ndf / (1.0 - 0.5 * ndf * width);
   float slope2 = ndf * ndf / max(1.0 - ndf * ndf, 1e-6) + width;
   return sqrt(slope2 / (1.0 + slope2));
 }

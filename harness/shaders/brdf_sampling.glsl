@@ -36,7 +36,7 @@ vec3 sample_brdf(Surface s, vec2 u, float choose, int lobes) {
   bool specular = choose < specular_share(s, lobes);
   if (!specular) {
     cosine2 = 1.0 - u.x;
-  } else if (s.ndf > 0.0) {
+  } else if (!is_phong(s.ndf)) {
     cosine2 = (1.0 - u.x) / (1.0 - u.x + s.ndf * s.ndf * u.x);  // tan² = α² u/(1-u)
   } else {
     cosine2 = pow(1.0 - u.x, 2.0 / (2.0 - s.ndf));  // ∫ D n·h ∝ cos^{n+2}

@@ -2,12 +2,13 @@
 #ifndef VSGLBENCH_TYPES_H
 #define VSGLBENCH_TYPES_H
 
-// Lobes, as bits. What the effects that a scene calls for leave of a kernel is said by three values, which
+// Lobes, as bits. What the effects that a scene calls for leave of a kernel is said by four values, which
 // frame/permutation.h sets:
 //  SURFACE_LOBES  of the surfaces that it loads from the deferred targets
 //  LIGHT_LOBES    of the lights that it makes or evaluates
 //  FACE_NORMALS   1: every shading normal is its face's, but for the bend towards the viewer, and one map
 //                 holds both
+//  PHONG_LOBES    0: no surface's normal distribution is Phong's, all are GGX's
 // A half where no surface reflects keeps the diffuse lobe.
 #define DIFFUSE_LOBE 1
 #define SPECULAR_LOBE 2
@@ -33,6 +34,9 @@ using uint = uint32_t;
 #endif
 #ifndef FACE_NORMALS
 #define FACE_NORMALS 0
+#endif
+#ifndef PHONG_LOBES
+#define PHONG_LOBES 1
 #endif
 #endif
 
