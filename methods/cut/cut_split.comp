@@ -1,7 +1,8 @@
 // Step 3, once a round: nodes of the tree are split, across the coordinate of largest variance, where that
 // lowers the squared distances to the two parts' means most (Wan et al. 1988; of PLACES places). The parts
-// share the node's lights: of a part's E = Σ|f-mean|², n lights on a surface leave about E/n, and the sum of
-// what both parts' lights leave is least where n is as √E.
+// share the node's lights: of a part's E = Σ|f-mean|², n lights on a surface leave about E/n, whose sum over
+// both parts is least where n is as √E. An image shows of a light also its power, which the number m of
+// samples stands for: n is as √(E√m).
 #version 460
 layout(set = 0, binding = 0, std430) readonly buffer From { float from[]; };
 #define SAMPLES from
@@ -131,9 +132,11 @@ float error(vec4 p, vec4 d, uint count) {
   return max(d.w - (dot(p.xyz, p.xyz) + dot(d.xyz, d.xyz)) / float(count), 0.0);
 }
 
+// What a part asks of lights.
+float demand(float error, uint count) { return sqrt(error * sqrt(float(count)) + 1e-30); }
+
 // The left part's lights: at least one for each, and no more than the rounds that are left can make.
-uint share(uint budget, float left_error, float right_error) {
-  float l = sqrt(left_error + 1e-30), r = sqrt(right_error + 1e-30);
+uint share(uint budget, float l, float r) {
   uint most = min(1u << min(rounds - 1u - round, 30u), budget - 1u);
   return clamp(uint(float(budget) * (l / (l + r)) + 0.5), budget - most, most);
 }
@@ -169,7 +172,7 @@ void main() {
   if (lane != 0u) return;
   float left_error = error(sums[0], sums[1], before.y);
   float right_error = error(sums[2], sums[3], count - before.y);
-  uint left = share(task.budget, left_error, right_error);
+  uint left = share(task.budget, demand(left_error, before.y), demand(right_error, count - before.y));
   nodes[task.node] = Node(cut.axis | left << 3, cut.threshold);
   uint second = task.first + left, right = task.budget - left;
   if (left > 1u) {
