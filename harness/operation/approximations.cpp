@@ -262,9 +262,12 @@ std::vector<ErrorRow> exact_brdf_errors(ShadingProbe& probe, ProbeMode mode) {
       }
     }
   }
-  return errors_of(probe, rows, mode, {}, [](const exact::Surface& s, const ShadingPair& pair) {
-    return exact::reflected_radiance(s, exact::incoming_disk(pair.light, pair.texel, s.position), 1e-4)
-        .value.x;
+  return errors_of(probe, rows, mode, {}, [&](const exact::Surface& s, const ShadingPair& pair) {
+    const exact::Integral integral =
+        mode == ProbeMode::filtered
+            ? exact::radiance_of_disk(s, pair.texel, pair.light.variance, 1e-4)
+            : exact::reflected_radiance(s, exact::incoming_disk(pair.light, pair.texel, s.position), 1e-4);
+    return integral.value.x;
   });
 }
 

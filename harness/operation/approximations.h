@@ -30,7 +30,8 @@ struct ErrorRow {
 //  gaussian   vsgl16: a light's Gaussian of positions and its lobe as one SG [MFIS16 Eq. 11, 12]
 //  disk       vsgl14: a light's disk and its lobe in triple products [VSGL14 Eq. 3] against its Eq. 2
 //  cancelled  ρ(ω_i)|Ω|/(πr²) [VSGL14 §3.3] against the same integral with exact BRDFs at both ends
-//  filtered_brdfs  the same with both NDFs filtered by the disk, `shading` filtered
+//  filtered_brdfs  `shading` filtered, both NDFs filtered by the disk, against the integral over the disk
+//             across the texel's normal, with exact BRDFs at both ends
 // The last four have light and viewer at the same angle to the normal, on either side.
 const std::vector<std::string>& oracle_names();
 std::vector<ErrorRow> approximation_errors(Device& device, const std::string& oracle);

@@ -50,6 +50,18 @@ TEST(Approximations, AreGoodWhereTheyShouldBe) {
   }
 }
 
+// Between Lambert surfaces a disk is exact where the receiver's horizon doesn't cut it, and within 15 % where
+// it does but leaves the disk's centre well above it.
+TEST(Approximations, BetweenLambertSurfacesAreExactButForTheHorizon) {
+  const auto errors = tabled_errors("filtered_brdfs");
+  for (const auto& [radius, uncut, cut] :
+       {std::tuple("0.03", kViewAngles, kViewAngles), {"0.3", kViewAngles - 2, kViewAngles}, {"1.5", 3, 6}}) {
+    const auto& error = errors.at(std::string("Lambert from Lambert r/d ") + radius);
+    for (size_t k = 0; k < cut; ++k)
+      EXPECT_LT(std::abs(error[k]), k < uncut ? 1e-5 : 0.15) << radius << " " << k;
+  }
+}
+
 // z = (estimate - integral)/standard error, which is normal for this many runs.
 TEST(SphericalLights, AreEstimatedWithoutBias) {
   const auto errors = vsl_errors(device(), 512);

@@ -12,4 +12,34 @@ float solid_angle_over_area(float distance, float radius2) {
   return 2.0 / (h * (h + distance));
 }
 
+// Of a disk across `normal`, seen from `height` > 0 above its plane: the mean of ω cosθ_v/d² over its points,
+// ω towards the point, d its distance, θ_v from the normal to the surface, 1/m². It is the vector irradiance
+// of that disk of radiance 1/(πr²), whose components along the normal and across it are the form factors of
+// a plane element that is parallel to the disk and of one that stands upright; closed:
+//   ½(1-(d²-r²)/S)/r²  and  ½ h/ρ ((d²+r²)/S-1)/r²,  S² = (d²+r²)²-4r²ρ² = (d²-r²)²+4r²h²,  d² = h²+ρ²,
+// here without their cancellation.
+vec3 disk_flow(vec3 to_centre, float distance2, vec3 normal, float height, float radius2) {
+  float difference = distance2 - radius2;
+  float s = max(sqrt(difference * difference + 4.0 * radius2 * height * height), 1e-20);
+  float far = s + abs(difference);
+  float down = difference > 0.0 ? 2.0 * height * height / far : 0.5 * far / radius2;
+  float along = 2.0 * height / (distance2 + radius2 + s);
+  return (along * to_centre + (height * along - down) * normal) / s;
+}
+
+// The mean of cosθ_v max(cosθ_x,0)/d² over the disk's points, 1/m², θ_x from the surface's normal. `rise`, m,
+// is how far the disk's centre is above the surface's horizon, `reach` how far its rim goes up and down from
+// there. Where the horizon doesn't cut the disk this is flow·n. Where it does, what is lost below adds to
+// that: five eighths of what Hill and Heitz (2016, "Real-Time Area Lighting") add, (l²+z)/(l+1) of a sphere
+// of the same vector irradiance, which is too much for a disk by a third. It fades out where a quarter of the
+// reach is left on either side, so that nothing jumps as a light's mean sets.
+float above_horizon(vec3 flow, vec3 normal, float radius2, float rise, float reach) {
+  float magnitude = length(flow);
+  float form_factor = min(magnitude * radius2, 1.0);
+  float facing = dot(flow, normal), uncut = max(facing, 0.0);
+  float sphere = max(form_factor * magnitude + facing, 0.0) / (form_factor + 1.0);
+  float share = 0.625 * clamp(4.0 * min(reach - rise, rise) / max(reach, 1e-20), 0.0, 1.0);
+  return mix(uncut, sphere, share);
+}
+
 #endif

@@ -1,43 +1,57 @@
 // One VSGL at one surface by the exact BRDFs of both ends, their normal distributions filtered; without
-// visibility. The light is the disk of r² = 2σ² that [VSGL14 §3.1] sees it as. Of ∫ρ(ω)V(ω)dω/(πr²)
-// [VSGL14 Eq. 2], ρ is pulled out of the integral, as the consistent bias reduction does where ρ is smooth
-// against the disk [VSGL14 §3.3]; here ρ is made smooth: over half vectors each NDF is as wide as itself and
-// the disk together. As σ → 0 it is the point light [VSGL14 Eq. 1]. Against the integral it errs by 1 % and
-// less where r is 0.03 d and no angle is grazing, and is too bright by 4 % (Lambert) to 55 % (lobes) where r
-// is 0.3 d (harness/operation/approximations.csv, `filtered_brdfs`).
+// visibility. The light is the disk of r² = 2σ² [VSGL14 §3.1], but it lies across the light's mean normal,
+// as the surface does that it stands for, and doesn't turn to face each receiver. Of
+// ∫f_v f_x cosθ_v cosθ_x/d² dA/(πr²) both BRDFs are pulled out, as the consistent bias reduction pulls them
+// out where they are smooth against the disk [VSGL14 §3.3]; here they are made smooth: over half vectors each
+// NDF is as wide as itself and the disk together. What remains is closed (disk.glsl). As σ → 0 it is the
+// point light [VSGL14 Eq. 1]. The errors against the integral are in harness/operation/approximations.csv,
+// `filtered_brdfs`.
 #ifndef VSGLBENCH_FILTERED_SHADING_GLSL
 #define VSGLBENCH_FILTERED_SHADING_GLSL
 
 #include "brdf.glsl"
 #include "disk.glsl"
 
-// f(l,v) n·l under a light about l that is as wide as an SG of sharpness 1/spread: over half vectors that is
-// 4 (v·h)/spread.
-vec3 filtered_brdf_cosine(Surface s, vec3 l, float spread, int lobes) {
-  if ((lobes & SPECULAR_LOBE) != 0) {
-    float vh = max(0.5 * length(l + s.view), 1e-3);
-    s.ndf = filtered_ndf(s.ndf, 0.5 * spread / vh);
-  }
-  return brdf_cosine(s, l, lobes);
+// f(l,v), without its cosine, under a light about l that is as wide as an SG of sharpness 1/spread: over half
+// vectors that is 4 (v·h)/spread.
+vec3 filtered_brdf(Surface s, vec3 l, float spread, int lobes) {
+  vec3 diffuse = s.diffuse / PI;
+  if ((lobes & SPECULAR_LOBE) == 0) return diffuse;
+  float nl = dot(s.normal, l), nv = dot(s.normal, s.view);
+  if (nl <= 0.0 || nv <= 0.0) return diffuse;
+  vec3 sum = l + s.view;
+  float vh = max(0.5 * length(sum), 1e-3);
+  float ndf = filtered_ndf(s.ndf, 0.5 * spread / vh);
+  float specular = ndf_value(ndf, s.normal, 0.5 * sum / vh) * smith_visibility(nl, nv, masking_alpha(ndf));
+  return diffuse + specular * fresnel(s.f0, vh);
 }
 
 vec3 shade_filtered(Surface s, FilteredLight light) {
   vec3 to_mean = light.mean - s.position;
+  float height = -dot(to_mean, light.normal), rise = dot(to_mean, s.geometric_normal);
+  if (height <= 0.0 || rise <= 0.0 || dot(s.normal, s.view) <= 0.0) return vec3(0.0);
   float distance2 = max(dot(to_mean, to_mean), 1e-20);
-  vec3 direction = to_mean * inversesqrt(distance2);
   float radius2 = disk_radius2(light.variance, distance2);
-  float per_area = solid_angle_over_area(sqrt(distance2), radius2);
-  float spread = 0.25 * per_area * radius2;  // |Ω|/4π
+  vec3 flow = disk_flow(to_mean, distance2, light.normal, height, radius2);
+  float tilt = dot(light.normal, s.geometric_normal);
+  float reach = sqrt(radius2 * max(1.0 - tilt * tilt, 0.0));
+  float transfer = above_horizon(flow, s.normal, radius2, rise, reach);
+  vec3 direction = vec3(0.0);
+  float spread = 0.0;
+#if (SURFACE_LOBES | LIGHT_LOBES) & SPECULAR_LOBE
+  direction = to_mean * inversesqrt(distance2);
+  spread = 0.25 * solid_angle_over_area(sqrt(distance2), radius2) * radius2;  // |Ω|/4π
+#endif
   vec3 emitted = vec3(0.0);
 #if LIGHT_LOBES & DIFFUSE_LOBE
-  emitted += light.diffuse * max(dot(-direction, light.normal), 0.0);
+  emitted += light.diffuse;
 #endif
 #if LIGHT_LOBES & SPECULAR_LOBE
   Surface mirror =
       Surface(light.mean, light.normal, light.normal, light.incident, vec3(0.0), light.f0, light.ndf);
-  emitted += light.flux * filtered_brdf_cosine(mirror, -direction, spread, SPECULAR_LOBE);
+  emitted += light.flux * filtered_brdf(mirror, -direction, spread, SPECULAR_LOBE);
 #endif
-  return per_area * emitted * filtered_brdf_cosine(s, direction, spread, SURFACE_LOBES);
+  return transfer * emitted * filtered_brdf(s, direction, spread, SURFACE_LOBES);
 }
 
 #endif

@@ -90,6 +90,21 @@ Integral reflected_radiance(const Surface& surface, const Incoming& incoming, do
                    [&](const dvec3& l) { return brdf_cosine(surface, l) * incoming.radiance(l); });
 }
 
+// A point of the disk is the foot of one of the hemisphere: dA = r² cosθ dω.
+Integral radiance_of_disk(const Surface& surface, const gpu::Vpl& texel, double variance,
+                          double relative_error) {
+  const Surface emitter = surface_of(texel);
+  const double radius = std::sqrt(2 * variance);
+  return integrate({emitter.normal, pi / 2}, {}, relative_error, [&](const dvec3& w) {
+    const double cosine = glm::dot(w, emitter.normal);
+    const dvec3 to_point = emitter.position + radius * (w - cosine * emitter.normal) - surface.position;
+    const double distance2 = glm::dot(to_point, to_point);
+    const dvec3 l = to_point / std::sqrt(distance2);
+    return dvec3(texel.flux) * brdf_cosine(emitter, -l) * brdf_cosine(surface, l) *
+           (cosine / (pi * distance2));
+  });
+}
+
 std::pair<double, double> reflected_bandwidths(const Surface& surface) {
   const dvec3 n = surface.normal, v = surface.view, mirror = 2 * glm::dot(n, v) * n - v;
   const dvec3 any = std::abs(n.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);

@@ -47,6 +47,11 @@ Incoming incoming_disk(const gpu::Vsgl& light, const gpu::Vpl& texel, const glm:
 // The integral, to `relative_error`.
 Integral reflected_radiance(const Surface& surface, const Incoming& incoming, double relative_error);
 
+// Radiance reflected of a disk of r² = 2σ² across the texel's normal, each point of which reflects Φ/(πr²) by
+// the texel's exact BRDF: ∫Φ f_v cosθ_v f_x cosθ_x/d² dA/(πr²), to `relative_error`. `variance`: σ², m².
+Integral radiance_of_disk(const Surface& surface, const gpu::Vpl& texel, double variance,
+                          double relative_error);
+
 // Bandwidths η of exp(-η δ²) that D(h) has where ω leaves the mirror direction by δ: in the plane of
 // incidence, and across it; by finite differences.
 std::pair<double, double> reflected_bandwidths(const Surface& surface);

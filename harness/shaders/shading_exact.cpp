@@ -200,14 +200,30 @@ Surface filtered(Surface s, const dvec3& l, double disk_sharpness) {
 
 dvec3 shade_filtered(const Surface& s, const gpu::FilteredLight& light) {
   const Sight to(s, light.mean, light.variance);
+  const dvec3 normal(light.normal), to_mean = dvec3(light.mean) - s.position;
+  const double height = -glm::dot(to_mean, normal), rise = glm::dot(to_mean, s.geometric_normal);
+  if (height <= 0 || rise <= 0 || glm::dot(s.normal, s.view) <= 0) return dvec3(0);
+  // Form factors of the disk from an element parallel to it and from an upright one that faces its axis;
+  // S + |d²-r²| in place of the differences that cancel.
+  const double r2 = to.radius2(), difference = to.distance2 - r2;
+  const double root = std::sqrt(square(difference) + 4 * r2 * square(height));
+  const double far = root + std::abs(difference);
+  const double parallel = difference > 0 ? 2 * r2 * square(height) / (root * far) : far / (2 * root);
+  const double upright_over_rho = 2 * r2 * height / (root * (root + to.distance2 + r2));
+  const dvec3 flow = -parallel * normal + upright_over_rho * (to_mean + height * normal);
+  const double size = std::min(glm::length(flow), 1.0), facing = glm::dot(flow, s.normal);
+  const double reach = std::sqrt(r2 * std::max(1 - square(glm::dot(normal, s.geometric_normal)), 0.0));
+  const double share = reach > 0 ? 0.625 * std::clamp(4 * std::min(reach - rise, rise) / reach, 0.0, 1.0) : 0;
+  const double transfer =
+      glm::mix(std::max(facing, 0.0), std::max(square(size) + facing, 0.0) / (size + 1), share) / r2;
   const double sharpness = 4 * pi / to.solid_angle();
-  const dvec3 normal(light.normal);
+  const auto over_cosine = [&](const Surface& material, const dvec3& l) {
+    const double cosine = glm::dot(material.normal, l);
+    return cosine > 0 ? brdf_cosine(filtered(material, l, sharpness), l) / cosine : material.diffuse / pi;
+  };
   const Surface mirror{light.mean, normal, normal, light.incident, dvec3(0), light.f0, light.ndf};
-  const dvec3 emitted =
-      dvec3(light.diffuse) * std::max(glm::dot(-to.direction, normal), 0.0) +
-      dvec3(light.flux) * brdf_cosine(filtered(mirror, -to.direction, sharpness), -to.direction);
-  const dvec3 reflected = brdf_cosine(filtered(s, to.direction, sharpness), to.direction);
-  return emitted * reflected * to.solid_angle() / (pi * to.radius2());
+  const dvec3 emitted = dvec3(light.diffuse) + dvec3(light.flux) * over_cosine(mirror, -to.direction);
+  return emitted * over_cosine(s, to.direction) * transfer;
 }
 
 dvec3 shade_vpl(const Surface& s, const gpu::Vpl& light) {
