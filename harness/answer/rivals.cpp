@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "answer/front.h"
 #include "base/error.h"
@@ -45,7 +46,8 @@ Placed among_others(const PointGroup& group, const Point& point, const std::stri
 }
 
 Rivalry rivalry(const PointGroup& group, const std::string& method, const std::string& metric) {
-  Rivalry r{.scene = group.scene, .visibility = group.visibility, .metric = metric};
+  Rivalry r{
+      .scene = group.scene, .visibility = group.visibility, .reference = group.reference, .metric = metric};
   std::vector<size_t> papers;
   for (size_t i = 0; i < group.points.size(); ++i) {
     if (is_papers_vsgl(group.points[i], method)) papers.push_back(i);
@@ -82,27 +84,41 @@ std::string ratios(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<Rivalry> rivalries(const Report& report, const std::string& method,
-                               const std::vector<std::string>& metrics, const std::string& time) {
-  std::set<std::string> names;
-  for (const CaseResult& c : report.cases) names.insert(c.method);
-  if (!names.contains(method)) {
-    throw fail(ErrorKind::usage, "the report has no method '{}'{}", method,
-               suggestion(method, std::vector(names.begin(), names.end())));
+std::vector<Rivalry> rivalries(const Report& report, const RivalQuestion& question) {
+  std::set<std::string> names, scenes;
+  for (const CaseResult& c : report.cases) {
+    names.insert(c.method);
+    if (c.method == question.method) scenes.insert(c.scene);
   }
+  if (!names.contains(question.method)) {
+    throw fail(ErrorKind::usage, "the report has no method '{}'{}", question.method,
+               suggestion(question.method, std::vector(names.begin(), names.end())));
+  }
+  if (!question.scene.empty() && !scenes.contains(question.scene)) {
+    throw fail(ErrorKind::usage, "the report has no scene '{}' with '{}'{}", question.scene, question.method,
+               suggestion(question.scene, std::vector(scenes.begin(), scenes.end())));
+  }
+  const auto asked_for = [&](const PointGroup& group) {
+    return (question.scene.empty() || group.scene == question.scene) &&
+           (question.visibility.empty() || group.visibility == question.visibility) &&
+           std::ranges::any_of(group.points, [&](const Point& p) { return is_of(p, question.method); });
+  };
   std::vector<Rivalry> out;
-  for (const std::string& metric : metrics) {
-    for (const PointGroup& group : point_groups(report, {metric, time})) {
-      if (std::ranges::any_of(group.points, [&](const Point& p) { return is_of(p, method); }))
-        out.push_back(rivalry(group, method, metric));
+  for (const std::string& metric : question.metrics) {
+    for (const PointGroup& group : point_groups(report, {metric, question.time})) {
+      if (asked_for(group)) out.push_back(rivalry(group, question.method, metric));
     }
+  }
+  if (out.empty()) {
+    throw fail(ErrorKind::usage, "the report has no case of '{}' with errors, times and visibility '{}'",
+               question.method, question.visibility.empty() ? "none or full" : question.visibility);
   }
   // By group, the metrics in their order.
   std::ranges::stable_sort(out, [&](const Rivalry& a, const Rivalry& b) {
     const auto first = [&](const Rivalry& r) {
       return std::ranges::find_if(report.cases, [&](const CaseResult& c) { return c.scene == r.scene; });
     };
-    return std::pair(first(a), a.visibility) < std::pair(first(b), b.visibility);
+    return std::tuple(first(a), a.visibility, a.reference) < std::tuple(first(b), b.visibility, b.reference);
   });
   return out;
 }
@@ -125,7 +141,7 @@ std::string rivalry_table(const std::vector<Rivalry>& rivalries) {
     const Rivalry& first = rivalries[i];
     text += fmt::format("| {} | {} |", first.scene, first.visibility);
     for (; i < rivalries.size() && rivalries[i].scene == first.scene &&
-           rivalries[i].visibility == first.visibility;
+           rivalries[i].visibility == first.visibility && rivalries[i].reference == first.reference;
          ++i) {
       const Rivalry& r = rivalries[i];
       text += fmt::format(" {} / {} / {} |", r.undominated, r.ambiguous.size(), r.dominated.size());

@@ -27,7 +27,7 @@ TEST(Rivals, StandingsAndErrorsAtEqualTime) {
   made.add(at("cut", 64, 20, 16, "filtered"));     // dominated by vpl; 16 of the papers' 20
   made.add(at("cut", 16, 5, 50, "filtered"));      // not dominated; no paper's point is as cheap
   made.add(at("cut", 256, 30, 13.2, "filtered"));  // dominated, too; 13.2 of the papers' 13.33
-  const auto all = rivalries(made.report, "cut", {"smape"}, "method");
+  const auto all = rivalries(made.report, {.method = "cut", .metrics = {"smape"}});
   ASSERT_EQ(all.size(), 1u);
   const Rivalry& r = all[0];
   EXPECT_EQ(r.scene, "box");
@@ -50,7 +50,7 @@ TEST(Rivals, AMethodDoesNotDominateItself) {
   made.add(at("cut", 64, 10, 10));
   made.add(at("cut", 256, 20, 20));
   made.add(at("vpl", 64, 30, 5));
-  const auto all = rivalries(made.report, "cut", {"smape"}, "method");
+  const auto all = rivalries(made.report, {.method = "cut", .metrics = {"smape"}});
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].undominated, 2u);
   EXPECT_NE(rivalry_table(all).find("No point is dominated."), std::string::npos);
@@ -60,11 +60,37 @@ TEST(Rivals, AnUnknownMethodIsNamed) {
   MadeReport made(1, 0.001, 0.001);
   made.add(at("cut", 64, 10, 10));
   try {
-    rivalries(made.report, "cute", {"smape"}, "method");
+    rivalries(made.report, {.method = "cute", .metrics = {"smape"}});
     FAIL();
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("did you mean 'cut'"), std::string::npos) << e.what();
   }
+}
+
+TEST(Rivals, OfOneSceneAndVisibilityOnly) {
+  MadeReport made(1, 0.001, 0.001);
+  made.add(at("cut", 64, 10, 10));
+  RivalQuestion question{.method = "cut", .metrics = {"smape"}, .scene = "box", .visibility = "none"};
+  EXPECT_EQ(rivalries(made.report, question).size(), 1u);
+  question.visibility = "full";
+  EXPECT_THROW(rivalries(made.report, question), Error);
+  question.visibility.clear();
+  question.scene = "bx";
+  EXPECT_THROW(rivalries(made.report, question), Error);
+}
+
+// Two references of one scene and visibility are two rows.
+TEST(Rivals, EachReferenceHasItsRow) {
+  const auto row = [](const char* reference, const char* metric) {
+    return Rivalry{
+        .scene = "box", .visibility = "none", .reference = reference, .metric = metric, .undominated = 1};
+  };
+  const std::string table =
+      rivalry_table({row("a", "rmse"), row("a", "flip"), row("b", "rmse"), row("b", "flip")});
+  EXPECT_NE(table.find("| box | none | 1 / 0 / 0 | 1 / 0 / 0 | - |\n"
+                       "| box | none | 1 / 0 / 0 | 1 / 0 / 0 | - |\n"),
+            std::string::npos)
+      << table;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 struct AnswerCommand {
   fs::path report;
   Question question;
-  std::string error, time, method;
+  std::string error, time, method, metric;
 };
 
 void print(const AnswerCommand& command) {
@@ -25,11 +25,15 @@ void print(const AnswerCommand& command) {
   if (!command.method.empty()) {
     if (!command.error.empty() || !command.time.empty())
       throw fail(ErrorKind::usage, "ask for one of --method cut, --error smape<=5 and --time 2ms");
-    const Report report = read_report_at(command.report);
-    fmt::print("{}",
-               rivalry_table(rivalries(report, command.method, {"rmse", "flip"}, question.options.time)));
+    RivalQuestion rivals{.method = command.method,
+                         .time = question.options.time,
+                         .scene = question.scene,
+                         .visibility = question.visibility};
+    if (!command.metric.empty()) rivals.metrics = {command.metric};
+    fmt::print("{}", rivalry_table(rivalries(read_report_at(command.report), rivals)));
     return;
   }
+  if (!command.metric.empty()) question.options.metric = command.metric;
   if (!command.error.empty()) ask_error(command.error, &question);
   if (!command.time.empty()) ask_time(command.time, &question);
   fmt::print("{}", reply(read_report_at(command.report), question));
@@ -66,15 +70,17 @@ void add_answer_command(CLI::App& app) {
       "--method", options->method,
       "instead: a table of which of this method's points others dominate in RMSE and FLIP, and its "
       "RMSE beside the papers' VSGL methods at equal time");
-  command->add_option("--metric", options->question.options.metric,
-                      "with --time: the error to make small (default smape)");
+  command->add_option("--metric", options->metric,
+                      "with --time: the error to make small (default smape); with --method: the one that "
+                      "counts (default RMSE and FLIP)");
   command->add_option(
       "--sum", options->question.options.time,
       fmt::format("which time counts: {} (default method: all passes but the raster of the halves)",
                   fmt::join(time_columns(), ", ")));
   command
       ->add_option("--visibility", options->question.visibility,
-                   "none or full: against which reference (default: full where there is one)")
+                   "none or full: against which reference (default: full where there is one; with "
+                   "--method both)")
       ->check(CLI::IsMember({"none", "full"}));
   command->callback([=] { print(*options); });
 }

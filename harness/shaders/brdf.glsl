@@ -17,12 +17,14 @@ struct Surface {
   float ndf;  // > 0: GGX alpha; < 0: minus the Phong exponent
 };
 
+bool is_phong(float ndf) { return PHONG_LOBES == 1 && ndf <= 0.0; }
+
 // Sharpness of the normal distribution as an SG: GGX 2/α², Phong n [VSGL15s App. A].
-float ndf_sharpness(float ndf) { return ndf > 0.0 ? 2.0 / (ndf * ndf) : -ndf; }
+float ndf_sharpness(float ndf) { return is_phong(ndf) ? -ndf : 2.0 / (ndf * ndf); }
 // Its peak: GGX 1/(πα²), Phong (n+2)/(2π).
-float ndf_peak(float ndf) { return ndf > 0.0 ? 1.0 / (PI * ndf * ndf) : (2.0 - ndf) / (2.0 * PI); }
+float ndf_peak(float ndf) { return is_phong(ndf) ? (2.0 - ndf) / (2.0 * PI) : 1.0 / (PI * ndf * ndf); }
 // α of the masking term: GGX's own; Phong by Walter et al.'s √(2/(n+2)).
-float masking_alpha(float ndf) { return ndf > 0.0 ? ndf : sqrt(2.0 / (2.0 - ndf)); }
+float masking_alpha(float ndf) { return is_phong(ndf) ? sqrt(2.0 / (2.0 - ndf)) : ndf; }
 
 // Schlick; f90 = min(1, 50 max(f0)), so that f0 = 0 means no specular reflection at all.
 vec3 fresnel(vec3 f0, float cosine) {
@@ -38,8 +40,6 @@ float smith_visibility(float nl, float nv, float alpha) {
   float d = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
   return d > 0.0 ? 0.5 / d : 0.0;
 }
-
-bool is_phong(float ndf) { return PHONG_LOBES == 1 && ndf <= 0.0; }
 
 // D(h), with 1-(n·h)² taken from the cross product: near the mirror direction n·h has no digits left.
 float ndf_value(float ndf, vec3 n, vec3 h) {

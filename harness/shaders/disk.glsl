@@ -20,25 +20,26 @@ float solid_angle_over_area(float distance, float radius2) {
 // here without their cancellation.
 vec3 disk_flow(vec3 to_centre, float distance2, vec3 normal, float height, float radius2) {
   float difference = distance2 - radius2;
-  float s = max(sqrt(difference * difference + 4.0 * radius2 * height * height), 1e-20);
+  float s = max(sqrt(difference * difference + 4.0 * radius2 * height * height), 1e-18);
   float far = s + abs(difference);
-  float down = difference > 0.0 ? 2.0 * height * height / far : 0.5 * far / radius2;
-  float along = 2.0 * height / (distance2 + radius2 + s);
-  return (along * to_centre + (height * along - down) * normal) / s;
+  bool outside = difference > 0.0;
+  float down = (outside ? 2.0 * height * height : 0.5 * far) / ((outside ? far : radius2) * s);
+  float along = 2.0 * height / ((distance2 + radius2 + s) * s);
+  return along * to_centre + (height * along - down) * normal;
 }
 
-// The mean of cosθ_v max(cosθ_x,0)/d² over the disk's points, 1/m², θ_x from the surface's normal. `rise`, m,
-// is how far the disk's centre is above the surface's horizon, `reach` how far its rim goes up and down from
-// there. Where the horizon doesn't cut the disk this is flow·n. Where it does, what is lost below adds to
-// that: five eighths of what Hill and Heitz (2016, "Real-Time Area Lighting") add, (l²+z)/(l+1) of a sphere
-// of the same vector irradiance, which is too much for a disk by a third. It fades out where a quarter of the
-// reach is left on either side, so that nothing jumps as a light's mean sets.
-float above_horizon(vec3 flow, vec3 normal, float radius2, float rise, float reach) {
+// The mean of cosθ_v max(cosθ_x,0)/d² over the disk's points, 1/m², θ_x from the surface's normal. `rise` is
+// how far the disk's centre is above the surface's horizon, as a part of how far its rim reaches up and down
+// from there. Where the horizon doesn't cut the disk this is flow·n. Where it does, what is lost below adds
+// to that: five eighths of what Hill and Heitz (2016, "Real-Time Area Lighting") add, (l²+z)/(l+1) of a
+// sphere of the same vector irradiance, which is too much for a disk by a third. It fades out in the quarters
+// next to rise = 0 and 1, so that nothing jumps as a light's mean sets.
+float above_horizon(vec3 flow, vec3 normal, float radius2, float rise) {
   float magnitude = length(flow);
   float form_factor = min(magnitude * radius2, 1.0);
   float facing = dot(flow, normal), uncut = max(facing, 0.0);
   float sphere = max(form_factor * magnitude + facing, 0.0) / (form_factor + 1.0);
-  float share = 0.625 * clamp(4.0 * min(reach - rise, rise) / max(reach, 1e-20), 0.0, 1.0);
+  float share = 0.625 * clamp(4.0 * min(rise, 1.0 - rise), 0.0, 1.0);
   return mix(uncut, sphere, share);
 }
 

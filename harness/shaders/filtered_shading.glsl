@@ -20,27 +20,28 @@ vec3 filtered_brdf(Surface s, vec3 l, float spread, int lobes) {
   float nl = dot(s.normal, l), nv = dot(s.normal, s.view);
   if (nl <= 0.0 || nv <= 0.0) return diffuse;
   vec3 sum = l + s.view;
-  float vh = max(0.5 * length(sum), 1e-3);
-  float ndf = filtered_ndf(s.ndf, 0.5 * spread / vh);
-  float specular = ndf_value(ndf, s.normal, 0.5 * sum / vh) * smith_visibility(nl, nv, masking_alpha(ndf));
-  return diffuse + specular * fresnel(s.f0, vh);
+  float length2 = max(dot(sum, sum), 4e-6), per_length = inversesqrt(length2);  // |l+v| = 2 v·h
+  float ndf = filtered_ndf(s.ndf, spread * per_length);
+  float specular = ndf_value(ndf, s.normal, sum * per_length) * smith_visibility(nl, nv, masking_alpha(ndf));
+  return diffuse + specular * fresnel(s.f0, 0.5 * length2 * per_length);
 }
 
 vec3 shade_filtered(Surface s, FilteredLight light) {
   vec3 to_mean = light.mean - s.position;
   float height = -dot(to_mean, light.normal), rise = dot(to_mean, s.geometric_normal);
   if (height <= 0.0 || rise <= 0.0 || dot(s.normal, s.view) <= 0.0) return vec3(0.0);
-  float distance2 = max(dot(to_mean, to_mean), 1e-20);
+  float distance2 = max(dot(to_mean, to_mean), 1e-18);
   float radius2 = disk_radius2(light.variance, distance2);
   vec3 flow = disk_flow(to_mean, distance2, light.normal, height, radius2);
   float tilt = dot(light.normal, s.geometric_normal);
-  float reach = sqrt(radius2 * max(1.0 - tilt * tilt, 0.0));
-  float transfer = above_horizon(flow, s.normal, radius2, rise, reach);
+  float reach2 = radius2 * max(1.0 - tilt * tilt, 1e-12);
+  float transfer = above_horizon(flow, s.normal, radius2, rise * inversesqrt(reach2));
   vec3 direction = vec3(0.0);
   float spread = 0.0;
 #if (SURFACE_LOBES | LIGHT_LOBES) & SPECULAR_LOBE
-  direction = to_mean * inversesqrt(distance2);
-  spread = 0.25 * solid_angle_over_area(sqrt(distance2), radius2) * radius2;  // |Ω|/4π
+  float per_distance = inversesqrt(distance2);
+  direction = to_mean * per_distance;
+  spread = 0.25 * solid_angle_over_area(distance2 * per_distance, radius2) * radius2;  // |Ω|/4π
 #endif
   vec3 emitted = vec3(0.0);
 #if LIGHT_LOBES & DIFFUSE_LOBE
