@@ -136,7 +136,7 @@ std::string rivalry_table(const std::vector<Rivalry>& rivalries) {
   }
   std::string text =
       fmt::format("{} {} at equal time, papers' VSGLs = 1 |\n{} ---: |\n", head, metrics[0], rule);
-  std::string lines;
+  std::string dominated, ambiguous;
   for (size_t i = 0; i < rivalries.size();) {
     const Rivalry& first = rivalries[i];
     text += fmt::format("| {} | {} |", first.scene, first.visibility);
@@ -145,12 +145,19 @@ std::string rivalry_table(const std::vector<Rivalry>& rivalries) {
          ++i) {
       const Rivalry& r = rivalries[i];
       text += fmt::format(" {} / {} / {} |", r.undominated, r.ambiguous.size(), r.dominated.size());
-      for (const std::string& d : r.dominated)
-        lines += fmt::format("* {}, {}, {}: {}\n", r.scene, r.visibility, r.metric, d);
+      const auto add = [&r](const std::vector<std::string>& points, std::string* lines) {
+        for (const std::string& point : points)
+          *lines += fmt::format("* {}, {}, {}: {}\n", r.scene, r.visibility, r.metric, point);
+      };
+      add(r.dominated, &dominated);
+      add(r.ambiguous, &ambiguous);
     }
     text += fmt::format(" {} |\n", ratios(first.at_equal_time));
   }
-  return text + "\n" + (lines.empty() ? "No point is dominated.\n" : "Dominated:\n\n" + lines);
+  text +=
+      "\nAt equal time: the geometric mean of the points' ratios, their range, and how many they are.\n\n";
+  text += dominated.empty() ? "No point is dominated.\n" : "Dominated:\n\n" + dominated;
+  return ambiguous.empty() ? text : text + "\nCan't be told:\n\n" + ambiguous;
 }
 
 }  // namespace vsglbench

@@ -34,7 +34,7 @@ struct RivalQuestion {
 std::vector<Rivalry> rivalries(const Report& report, const RivalQuestion& question);
 
 // A table of Markdown, a row a group: a count of each kind for each metric, and the geometric mean and range
-// at equal time by the first metric. Then a line for each dominated point.
+// at equal time by the first metric. Then a line for each dominated point, and for each that can't be told.
 std::string rivalry_table(const std::vector<Rivalry>& rivalries);
 
 }  // namespace vsglbench

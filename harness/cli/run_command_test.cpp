@@ -58,7 +58,7 @@ TEST_F(RunCommand, PricesTheLedgerAndPrintsIt) {
   const Finished plain = measure({});
   ASSERT_EQ(plain.code, 0) << plain.err;
   EXPECT_TRUE(contains(
-      plain.out, "cornell calls for 3 of 13 effects: diffuse_receivers, diffuse_emitters, occlusion\n"));
+      plain.out, "cornell calls for 3 of 14 effects: diffuse_receivers, diffuse_emitters, occlusion\n"));
   EXPECT_EQ(plain.out.find("with all effects"), std::string::npos) << plain.out;
   const Finished priced = measure({"--price-effects=2"});
   ASSERT_EQ(priced.code, 0) << priced.err;

@@ -58,8 +58,8 @@ std::vector<gpu::FilteredLight> filtered(const oracle::Half& half, const std::ve
   Recorder recorder(device);
   recorder.begin();
   recorder.pass({.stage = PassStage::shade}, [&] {
-    record_filtered_lights(recorder, kernels, rsm.field(Half::rsm, false), {{"shading", "filtered"}}, {}, from,
-                           count, to);
+    record_filtered_lights(recorder, kernels, rsm.field(Half::rsm, false), {{"shading", "filtered"}}, {},
+                           from, count, to);
   });
   recorder.submit_and_wait();
   return read_filtered_lights(to, count, kBoth);
@@ -94,8 +94,8 @@ TEST(FilteredLights, OfOneTexelAreItsVpl) {
   }
 }
 
-// Half vectors of a lobe of sharpness λ about a mirror direction have the sharpness 4 cosθ λ [VSGL15s App. A].
-// What a light's lobe is wider by than its texel's, 1/λ, adds to the texel's distribution: 2/λ to GGX's
+// Half vectors of a lobe of sharpness λ about a mirror direction have the sharpness 4 cosθ λ [VSGL15s App.
+// A]. What a light's lobe is wider by than its texel's, 1/λ, adds to the texel's distribution: 2/λ to GGX's
 // α²/(1-α²), 1/λ to the inverse of Phong's exponent.
 TEST(FilteredLights, AreAsWideAsTheirLobes) {
   const oracle::Half half = random_half(kWidth, kHeight, 3);

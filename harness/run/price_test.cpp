@@ -44,7 +44,7 @@ class PriceTest : public RunFixture {
   Report report() const { return read_report(out_ / "report.json"); }
 
   static void expect_priced(const SceneReport& scene) {
-    ASSERT_EQ(scene.effects.size(), 13u);
+    ASSERT_EQ(scene.effects.size(), kEffects);
     for (const EffectReport& e : scene.effects) {
       const bool priced = !e.name.starts_with("moving_");
       EXPECT_EQ(e.ms && e.ms_ci95 && e.bytes, priced) << e.name;
@@ -84,7 +84,7 @@ TEST_F(PriceTest, IsNotAskedForUnlessSomebodyAsks) {
   config_.erase("price_effects");
   EXPECT_EQ(run_config(options()).exit_code, 0);
   const SceneReport scene = report().scenes.at(0);
-  EXPECT_EQ(scene.effects.size(), 13u);
+  EXPECT_EQ(scene.effects.size(), kEffects);
   EXPECT_FALSE(scene.effects_priced);
   EXPECT_FALSE(scene.effects.at(0).ms);
   RunOptions o = options();
