@@ -74,7 +74,7 @@ TEST_F(RunCommand, PricesTheLedgerAndPrintsIt) {
     EXPECT_TRUE(contains(shown.out, " times as long; 2 rounds, "));
   }
   const Json rows = Json::parse(run({"effects", out_.string(), "--json"}).out).at("cornell");
-  ASSERT_EQ(rows.size(), 13u);
+  ASSERT_EQ(rows.size(), 14u);
   EXPECT_EQ(rows[0].at("ms"), *report().scenes.at(0).effects.at(0).ms);
   expect_refused(run({"effects", out_.string(), "--price"}), 2, "run --price-effects");
   expect_refused(measure({"--price-effects=0"}), 2, "--price-effects");

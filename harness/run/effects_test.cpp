@@ -77,6 +77,13 @@ TEST(Effects, OfCornellAreDiffuseLightAndOcclusion) {
   for (const EffectDecision& d : decisions_of(scene)) EXPECT_FALSE(d.reason.empty()) << name(d.effect);
 }
 
+// The ring's metal has a Phong exponent, whatever is seen or lit beside it; in cornell nothing has.
+TEST(Effects, PhongLobesAreCalledForWhereASurfaceHasAnExponent) {
+  EXPECT_TRUE(needed(decisions_of(load("ring514"))).has(Effect::phong_lobes));
+  EXPECT_TRUE(needed(decisions_of(load("colonnade"))).has(Effect::phong_lobes));
+  EXPECT_FALSE(needed(decisions_of(load("cornell"))).has(Effect::phong_lobes));
+}
+
 TEST(Effects, AreNamedInOptions) {
   EXPECT_EQ(parse_effects(""), EffectSet::none());
   EXPECT_EQ(parse_effects("all"), EffectSet::all());
