@@ -33,7 +33,8 @@ vec3 disk_flow(vec3 to_centre, float distance2, vec3 normal, float height, float
 // from there. Where the horizon doesn't cut the disk this is flow·n. Where it does, what is lost below adds
 // to that: five eighths of what Hill and Heitz (2016, "Real-Time Area Lighting") add, (l²+z)/(l+1) of a
 // sphere of the same vector irradiance, which is too much for a disk by a third. It fades out in the quarters
-// next to rise = 0 and 1, so that nothing jumps as a light's mean sets.
+// next to rise = 0 and 1, so that it doesn't jump as a light's mean sets; flow·n still does where the disk is
+// turned towards the surface.
 float above_horizon(vec3 flow, vec3 normal, float radius2, float rise) {
   float magnitude = length(flow);
   float form_factor = min(magnitude * radius2, 1.0);

@@ -69,9 +69,9 @@ glm::dvec3 shade_cancelled(const Surface& surface, const gpu::Vsgl& light, const
 glm::dvec3 shade_vpl(const Surface& surface, const gpu::Vpl& light);
 
 // Φ f_v f_x T/r²: T is the form factor of the disk of r² = 2σ² across the light's normal, cut by the
-// surface's horizon as filtered_shading.glsl does it. Each NDF is filtered by the disk: over half vectors
-// that has the sharpness λ' = 4 (v·h) 4π/|Ω| with v·h at least 1e-3, by which GGX's α²/(1-α²) grows by 2/λ'
-// (1-α² at least 1e-6) and a Phong exponent n becomes n λ'/(n+λ').
+// surface's horizon as disk.glsl does it; 0 where the light's mean is below that. Each NDF is filtered by the
+// disk: over half vectors that has the sharpness λ' = 4 (v·h) 4π/|Ω| with v·h at least 1e-3, by which GGX's
+// α²/(1-α²) grows by 2/λ' (1-α² at least 1e-6) and a Phong exponent n becomes n λ'/(n+λ').
 glm::dvec3 shade_filtered(const Surface& surface, const gpu::FilteredLight& light);
 
 // A virtual spherical light's ∫ρ(ω)V(ω)dω / (πr²) [VSGL14 Eq. 2] over the cone of half angle asin(r/d), π/2
