@@ -19,6 +19,13 @@ enum class Importance { own, vsgl, vpl, flux };
 const std::vector<std::string>& importance_names();    // in the order of the enumeration
 Importance parse_importance(const std::string& name);  // throws Error(config)
 
+// Which mean over the view the PDF on the RSM is proportional to, of what a texel's light adds to a pixel:
+// the arithmetic one [VSGL14 §3], as a sampler wants it whose estimates are unbiased; or the quadratic one,
+// where what is left out counts by its square.
+enum class ImportanceNorm { l1, l2 };
+const std::vector<std::string>& importance_norm_names();        // in the order of the enumeration
+ImportanceNorm parse_importance_norm(const std::string& name);  // throws Error(config)
+
 const std::vector<std::string>& lattice_names();  // in the order of the enumeration
 Lattice parse_lattice(const std::string& name);   // throws Error(config)
 
@@ -32,6 +39,7 @@ struct FrameParameters {
   Shading shading;           // of VSGLs
   float bias_reduction = 0;  // α of [VSGL14 §3.3], of VSGLs; 0: none
   Importance importance = Importance::own;
+  ImportanceNorm importance_norm = ImportanceNorm::l1;
   // Of generation alone, in place of `importance`: read by who makes the PDFs (run/pdf_source.h).
   std::string pdf = "mfis";
   // Progressive: images of so many light sets are averaged, the radius of lights × 2/3 from one to the next

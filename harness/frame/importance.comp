@@ -1,5 +1,7 @@
 // BRSM: the lights made on the G-buffer shade every RSM texel, without visibility, with the texel's BRDF
-// towards the primary light; p ∝ luminance of (Φ × that) [VSGL14 §3; Ritschel 2011].
+// towards the primary light. IMPORTANCE_L2 0: p ∝ luminance of (Φ × that), the mean over the view of what the
+// texel's light adds to a pixel [VSGL14 §3; Ritschel 2011]. 1: the root of the mean of its square; a light's
+// power stands for how many pixels it is, and c²/power for the sum of their squares.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #include "types.h"
@@ -17,12 +19,19 @@ layout(push_constant, scalar) uniform Push {
   uint first, count;  // lights [first, first+count) in this dispatch, added to what the ones before gave
 };
 
+// What a light adds to the sum, of a texel whose flux is `tint` in units of its luminance.
+float worth(vec3 tint, vec3 radiance, float power) {
+  float p = luminance(tint * radiance);
+  return IMPORTANCE_L2 == 1 ? p * (p / max(power, 1e-30)) : p;
+}
+
 // An invocation takes COLUMN texels, as in shade.comp.
 void main() {
   uvec2 corner = gl_WorkGroupID.xy * uvec2(8u, 8u * COLUMN) + gl_LocalInvocationID.xy;
   uint texels[COLUMN];
   bool surface[COLUMN], inside[COLUMN];
-  vec3 flux[COLUMN], sums[COLUMN];
+  vec3 tint[COLUMN];
+  float flux[COLUMN], sums[COLUMN];
   Shader shaders[COLUMN];
   [[unroll]] for (uint j = 0u; j < COLUMN; ++j) {
     uvec2 at = corner + uvec2(0u, 8u * j), last = uvec2(emitter.width, emitter.height) - 1u;
@@ -31,19 +40,23 @@ void main() {
     Texel t;
     surface[j] = load_texel(emitter, ivec2(at), t);
     texels[j] = at.y * emitter.width + at.x;
-    flux[j] = t.flux;
+    flux[j] = luminance(t.flux);
+    tint[j] = t.flux / max(flux[j], 1e-30);
     shaders[j] = make_shader(t.surface);
-    sums[j] = vec3(0.0);
+    sums[j] = 0.0;
   }
   float removed = 0.0;
   for (uint k = first; k < first + count; ++k) {
     Light light = lights[k];
-    [[unroll]] for (uint j = 0u; j < COLUMN; ++j) sums[j] += shade_light(shaders[j], light, 0u, removed);
+    [[unroll]] for (uint j = 0u; j < COLUMN; ++j) {
+      sums[j] += worth(tint[j], shade_light(shaders[j], light, 0u, removed), light.power);
+    }
   }
   [[unroll]] for (uint j = 0u; j < COLUMN; ++j) {
     if (!inside[j]) continue;
-    float p = luminance(flux[j] * sums[j]);
+    float p = flux[j] * (IMPORTANCE_L2 == 1 ? sqrt(sums[j]) : sums[j]);
     p = !surface[j] || p <= 0.0 ? 0.0 : p;  // a NaN or Inf stays: it is for the health gate to see
-    pdf[texels[j]] = first > 0u ? pdf[texels[j]] + p : p;
+    float before = first > 0u ? pdf[texels[j]] : 0.0;
+    pdf[texels[j]] = IMPORTANCE_L2 == 1 ? length(vec2(before, p)) : before + p;
   }
 }

@@ -22,6 +22,18 @@ Importance parse_importance(const std::string& name) {
   throw fail(ErrorKind::config, "no importance '{}'{}", name, suggestion(name, names));
 }
 
+const std::vector<std::string>& importance_norm_names() {
+  static const std::vector<std::string> names = {"l1", "l2"};
+  return names;
+}
+
+ImportanceNorm parse_importance_norm(const std::string& name) {
+  const auto& names = importance_norm_names();
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it != names.end()) return static_cast<ImportanceNorm>(it - names.begin());
+  throw fail(ErrorKind::config, "no importance norm '{}'{}", name, suggestion(name, names));
+}
+
 const std::vector<std::string>& lattice_names() {
   static const std::vector<std::string> names = {"fixed", "shifted"};
   return names;
@@ -36,7 +48,7 @@ Lattice parse_lattice(const std::string& name) {
 
 ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const MethodInfo& own,
                                const Json& method_parameters, const FrameParameters& p)
-    : stage_(stage), halves_(halves), shading_(p.shading), effects_(p.effects) {
+    : stage_(stage), halves_(halves), shading_(p.shading), effects_(p.effects), norm_(p.importance_norm) {
   if (p.importance == Importance::flux) return;
   const auto make = [&](const MethodInfo& info, const Json& parameters) {
     generator_ = std::make_unique<LightGenerator>(stage, info, parameters, shading_, effects_, Half::gbuffer);
@@ -104,9 +116,10 @@ void ImportancePass::draw_reflectance(Recorder& r, Half half) const {
 
 void ImportancePass::gather(Recorder& r) const {
   const Field f = halves_.field(Half::rsm, nullptr);
-  const Kernel& kernel = stage_.kernels.get(
-      frame_kernel("importance.comp"),
-      merged(light_defines(lights_->kind(), shading_), permutation(effects_, Half::rsm, Half::gbuffer)));
+  const ShaderDefines norm = {{"IMPORTANCE_L2", norm_ == ImportanceNorm::l2 ? "1" : "0"}};
+  const Kernel& kernel = stage_.kernels.get(frame_kernel("importance.comp"),
+                                            merged(merged(light_defines(lights_->kind(), shading_), norm),
+                                                   permutation(effects_, Half::rsm, Half::gbuffer)));
   for (const LightRange& range : light_ranges(lights_->count(), most_lights_of_a_dispatch)) {
     const struct {
       gpu::Emitter emitter;

@@ -48,6 +48,7 @@ class ImportancePass {
   const Halves& halves_;
   Shading shading_;
   EffectSet effects_;
+  ImportanceNorm norm_;
   std::unique_ptr<LightGenerator> generator_;  // null where nobody's lights make the PDF
   std::optional<HalfLights> lights_;
   bool drawn_from_own_ = false;

@@ -194,6 +194,11 @@ std::vector<CaseKey> table() {
            "vpl, as the first BRSM had it [VSGL14 Fig. 4a]; flux, nobody's: the power that a texel "
            "reflects"},
           &P::importance, parse_importance, importance_names()),
+      choice({"importance_norm", kFrame | kMethodTakesPdf, kIfDifferent,
+              "which mean over the view the PDF on the RSM is proportional to, of what a texel's light adds "
+              "to a "
+              "pixel: the arithmetic one [VSGL14 §3] (l1) or the quadratic one (l2)"},
+             &P::importance_norm, parse_importance_norm, importance_norm_names()),
       pdf(),
       count({"progressive", kFrame, kIfDifferent,
              "images of so many light sets are averaged, the lights' radius × 2/3 from one to the next "

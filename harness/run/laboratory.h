@@ -32,11 +32,11 @@ class Laboratory {
                Visibility visibility) {
     return render(method, own, {.rsm = rsm, .lights = lights, .visibility = visibility});
   }
-  // A frame of kWidth × kHeight pixels and importance_lights, whatever `p` says. The members below that are
+  // A frame of width × height pixels and importance_lights, whatever `p` says. The members below that are
   // not const tell what the last frame left.
   Image render(const std::string& method, const Json& own, FrameParameters p, uint32_t seed = 0) {
-    p.width = kWidth;
-    p.height = kHeight;
+    p.width = width;
+    p.height = height;
     p.importance_lights = importance_lights;
     const MethodInfo& info = load_method(method, device().info());
     Frame* self = nullptr;
@@ -72,6 +72,7 @@ class Laboratory {
   const Tracer tracer;
   KernelLibrary kernels;
   Stage stage;
+  uint32_t width = kWidth, height = kHeight;  // of frames; references are kWidth × kHeight
   uint32_t importance_lights = 256;
   Mask mask;
   ShadingNotes notes;
@@ -88,7 +89,7 @@ class Laboratory {
     }
     std::vector<TargetPoint> targets;
     for (const auto& p : points) targets.push_back({p.position, p.stop_short});
-    return compute_visibility(tracer, receivers, kWidth, kHeight, targets).words;
+    return compute_visibility(tracer, receivers, width, height, targets).words;
   }
   std::map<bool, std::optional<ReferenceResult>> references_;
 };
