@@ -1,7 +1,7 @@
 // VSGLs as `shading` filtered evaluates them: each with the material of the RSM's texel at its mean and with
 // all of its own power, turned as its surfaces are on average, its normal distribution wider by what its lobe
-// is wider than that texel's. Where the primary light sees no surface at the mean, the light is a Lambert
-// surface.
+// is wider than that texel's. One that reflects no diffuse light is turned as a mirror would be of that lobe.
+// Where the primary light sees no surface at the mean, the light is a Lambert surface.
 #version 460
 #include "types.h"
 layout(local_size_x = 64) in;
@@ -45,10 +45,13 @@ void main() {
   f.normal = surface ? t.surface.normal : light.specular_axis;
 #endif
 #if LIGHT_LOBES & SPECULAR_LOBE
-  reflected += lit ? light.specular * sg_integral(light.specular_sharpness) : vec3(0.0);
+  vec3 mirrored = lit ? light.specular * sg_integral(light.specular_sharpness) : vec3(0.0);
+  bool is_mirror = luminance(mirrored) > 0.0 && !(luminance(reflected) > 0.0);
+  reflected += mirrored;
   reflectance += specular_reflectance(t.surface);
   vec3 incident =
       emitter.perspective != 0u ? safe_normalize(emitter.position - light.mean, f.normal) : -emitter.forward;
+  if (is_mirror) f.normal = safe_normalize(incident + light.specular_axis, f.normal);
   // A lit surface faces the primary light; where the mean of many doesn't quite, it is lit at a grazing
   // angle.
   float cosine = dot(f.normal, incident);

@@ -123,6 +123,32 @@ TEST(FilteredLights, AreAsWideAsTheirLobes) {
   EXPECT_GT(checked, 50u);
 }
 
+// Of surfaces that turn, the mirror directions are what is averaged: the light has to send its lobe there,
+// however the one texel at its mean is turned.
+TEST(FilteredLights, OfMetalSendTheirLobeWhereItsAxisIs) {
+  oracle::Half half = random_half(kWidth, kHeight, 5);
+  for (oracle::Texel& t : half.texels) {
+    t.diffuse = glm::vec3(0);
+    t.f0 = glm::vec3(0.9f, 0.7f, 0.5f);
+  }
+  auto lights = lights_of(half);
+  ASSERT_GT(lights.size(), 100u);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    glm::vec3& axis = lights[i].light.specular_axis;
+    axis = glm::normalize(axis + 0.2f * lights[(i + 1) % lights.size()].light.specular_axis);
+  }
+  const auto made = filtered(half, lights);
+  size_t turned = 0;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    SCOPED_TRACE(i);
+    const dvec3 normal(made[i].normal), incident(made[i].incident), axis(lights[i].light.specular_axis);
+    expect_near(made[i].normal, glm::normalize(normal), 1e-4);
+    expect_near(glm::vec3(2 * glm::dot(normal, incident) * normal - incident), axis, 1e-3);
+    turned += glm::distance(normal, dvec3(lights[i].texel->normal)) > 0.02 ? 1 : 0;
+  }
+  EXPECT_GT(turned, lights.size() / 2);
+}
+
 TEST(FilteredLights, WithoutPowerOrSurfaceAreBlackOrLambert) {
   oracle::Half half = random_half(kWidth, kHeight, 4);
   auto lights = lights_of(half);
