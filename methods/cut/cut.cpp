@@ -25,9 +25,10 @@ const glm::uvec2 kBlock(4, 4);   // texels that one invocation takes down the tr
 
 class Cut : public Method {
  public:
-  Cut(MethodContext& context, float direction, uint32_t per_light)
+  Cut(MethodContext& context, float direction, float glossy, uint32_t per_light)
       : context_(context),
         direction_(direction),
+        glossy_(glossy),
         per_light_(per_light),
         sort_(context),
         sum_(context, ClusterSumVariant::segmented),
@@ -79,9 +80,9 @@ class Cut : public Method {
       gpu::Emitter emitter;
       uint32_t count, step;
       glm::uvec2 shift;
-    } push{field.emitter, count, lattice_step(count), target.shift};
-    r.dispatch(draw_, {*field.maps.position, *field.maps.normal, *field.pdf, samples(field, target.count, 0)},
-               push, groups_for(count, 64));
+      float glossy;
+    } push{field.emitter, count, lattice_step(count), target.shift, glossy_};
+    r.dispatch(draw_, {field.maps, *field.pdf, samples(field, target.count, 0)}, push, groups_for(count, 64));
   }
 
   void build(Recorder& r, const Field& field, const LightTarget& target) {
@@ -114,11 +115,10 @@ class Cut : public Method {
     const struct {
       gpu::Emitter emitter;
       uint32_t count;
-      float direction;
-    } push{field.emitter, target.count, direction_};
-    r.dispatch(
-        assign_, {*field.maps.position, *field.maps.normal, space(field), nodes(field, target.count), ids},
-        push, groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));
+      float direction, glossy;
+    } push{field.emitter, target.count, direction_, glossy_};
+    r.dispatch(assign_, {field.maps, space(field), nodes(field, target.count), ids}, push,
+               groups_for(field.emitter.width, 8 * kBlock.x), groups_for(field.emitter.height, 8 * kBlock.y));
   }
 
   ClusterSum::SortedTexels sort(Recorder& r, const Field& field, uint32_t clusters, const Buffer& ids) {
@@ -132,7 +132,7 @@ class Cut : public Method {
   }
 
   MethodContext& context_;
-  float direction_;
+  float direction_, glossy_;
   uint32_t per_light_;
   RadixSort sort_;
   ClusterSum sum_;
@@ -148,9 +148,14 @@ VSGLBENCH_METHOD(MethodInfo{
     .source = "our own, after Walter et al. 2005, Wan et al. 1988",
     .parameters =
         {{"direction", 0.5, "what a unit normal counts, in RMS distances of the samples", 0.0, 100.0, {}},
+         {"glossy", 3.0, "how many times more it counts where all is reflected specularly", 0.0, 100.0, {}},
          {"samples", 4, "samples of the PDF a light that the tree is made of", 1, 64, {}}},
-    .case_defaults = {{"shading", "filtered"}, {"light_clearance", "sigma"}, {"importance_lights", 128}},
+    .case_defaults = {{"shading", "filtered"},
+                      {"light_clearance", "sigma"},
+                      {"importance_lights", 128},
+                      {"importance_norm", "l2"}},
     .flux_bound = 1e-4,  // every texel is in one leaf
     .create = [](MethodContext& context, const Json& p) -> std::unique_ptr<Method> {
-      return std::make_unique<Cut>(context, p.at("direction").get<float>(), p.at("samples").get<uint32_t>());
+      return std::make_unique<Cut>(context, p.at("direction").get<float>(), p.at("glossy").get<float>(),
+                                   p.at("samples").get<uint32_t>());
     }})

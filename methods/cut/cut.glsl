@@ -1,7 +1,7 @@
 // What the kernels of `cut` share: the space that the tree cuts and its nodes.
 //
 // A point of that space has six coordinates: a texel's position, in RMS distances of the samples from their
-// mean, and its normal, times the parameter `direction`.
+// mean, and its normal as cut_texel.glsl weights it, times the parameter `direction`.
 #ifndef VSGLBENCH_CUT_GLSL
 #define VSGLBENCH_CUT_GLSL
 
@@ -35,6 +35,10 @@ struct Node {
 
 uint node_axis(Node n) { return n.axis_left & 7u; }
 uint node_left(Node n) { return n.axis_left >> 3; }
+
+// Point i of an array of floats, six each.
+#define STORE_POINT(array, i, p, d) \
+  for (uint k = 0u; k < 3u; ++k) array[6u * (i) + k] = (p)[k], array[6u * (i) + 3u + k] = (d)[k]
 
 // Coordinate `axis`: 0 to 2 of the position, 3 to 5 of the direction.
 float along(vec3 position, vec3 direction, uint axis) {

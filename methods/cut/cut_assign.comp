@@ -2,17 +2,15 @@
 // takes a block of BLOCK_X × BLOCK_Y texels down the tree together and parts them only where a cut does.
 #version 460
 #include "cut.glsl"
-#include "shading_normal.glsl"
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform sampler2D position_map;  // xyz, w > 0 where there is a surface
-layout(set = 0, binding = 1) uniform sampler2D normal_map;
-layout(set = 0, binding = 2, scalar) readonly buffer Spaces { Space space; };
-layout(set = 0, binding = 3, scalar) readonly buffer Nodes { Node nodes[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer Ids { uint ids[]; };
+#include "cut_texel.glsl"
+layout(set = 0, binding = AFTER_MAPS, scalar) readonly buffer Spaces { Space space; };
+layout(set = 0, binding = AFTER_MAPS + 1, scalar) readonly buffer Nodes { Node nodes[]; };
+layout(set = 0, binding = AFTER_MAPS + 2, std430) writeonly buffer Ids { uint ids[]; };
 layout(push_constant, scalar) uniform Push {
   Emitter emitter;
   uint count;
-  float direction_length;
+  float direction_length, glossy;
 };
 
 const uint TEXELS = BLOCK_X * BLOCK_Y;  // at most 32
@@ -30,10 +28,10 @@ uint load_texels(uvec2 corner) {
   for (uint k = 0u; k < TEXELS; ++k) {
     uvec2 at = texel_at(corner, k);
     ivec2 inside = ivec2(min(at, uvec2(emitter.width, emitter.height) - 1u));
-    vec4 p = texelFetch(position_map, inside, 0);
-    bool surface = p.w > 0.0 && at.x < emitter.width && at.y < emitter.height;
-    position[k] = (p.xyz - space.origin) * space.scale;
-    direction[k] = direction_length * shading_normal(emitter, texelFetch(normal_map, inside, 0).xyz, p.xyz);
+    vec3 p, d;
+    bool surface = load_point(emitter, inside, glossy, p, d) && at.x < emitter.width && at.y < emitter.height;
+    position[k] = (p - space.origin) * space.scale;
+    direction[k] = direction_length * d;
     light[k] = count;
     found |= surface ? 1u << k : 0u;
     low_p = surface ? min(low_p, position[k]) : low_p;

@@ -48,10 +48,7 @@ void main() {
     bool surface = has_surface(direction);
     position = ((surface ? position : base) - origin) * scale;
     direction = direction_length * (surface ? direction : base_direction);
-    for (uint k = 0u; k < 3u; ++k) {
-      samples[6u * i + k] = position[k];
-      samples[6u * i + 3u + k] = direction[k];
-    }
+    STORE_POINT(samples, i, position, direction);
   }
   // 3. The root.
   if (lane != 0u) return;

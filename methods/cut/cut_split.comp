@@ -109,11 +109,7 @@ mat4 part_samples(Run run, uint first, Cut cut, uint left, uint right) {
   for (uint i = run.begin; i < run.end; ++i) {
     vec3 p = sample_position(i), d = sample_direction(i);
     bool below = along(p, d, cut.axis) < cut.threshold;
-    uint at = 6u * (below ? left : right);
-    for (uint k = 0u; k < 3u; ++k) {
-      to[at + k] = p[k];
-      to[at + 3u + k] = d[k];
-    }
+    STORE_POINT(to, below ? left : right, p, d);
     left += below ? 1u : 0u;
     right += below ? 0u : 1u;
     p -= base_p;

@@ -75,6 +75,35 @@ TEST(Cut, PartsDirectionsAtOnePlaceUnlessToldNotTo) {
   EXPECT_EQ(lights[1].power, 0);
 }
 
+// On a line of texels, whose positions deviate by 1 from their mean, every second is turned: along z the
+// normals deviate by 0.4 from theirs, and by 0.2 with the half that they count. They are parted by direction
+// where that, times what a glossy surface's count more, is above 1.
+TEST(Cut, PartsDirectionsTheMoreTheGlossierASurfaceIs) {
+  struct Row {
+    float diffuse, f0;
+    double glossy;
+    bool by_direction;
+  };
+  for (const Row& row : {Row{0, 0.5f, 3.6, false},
+                         {0, 0.5f, 4.4, true},
+                         {0.3f, 0.3f, 7.2, false},
+                         {0.3f, 0.3f, 8.8, true},
+                         {0.5f, 0, 100, false}}) {
+    oracle::Half half = uniform_half(16, 16);
+    for (uint32_t i = 0; i < 256; ++i) {
+      oracle::Texel& t = half.texels[i];
+      t.position = glm::vec3(float(i % 16), 0, 0);
+      t.normal = t.geometric_normal =
+          (i % 16 + i / 16) % 2 == 0 ? glm::vec3(0, 1, 0) : glm::vec3(0, 0.6f, 0.8f);
+      t.diffuse = glm::vec3(row.diffuse);
+      t.f0 = glm::vec3(row.f0);
+    }
+    const Lights lights = cut(half, 2, {{"glossy", row.glossy}});
+    const bool by_direction = std::abs(lights[0].mean.x - lights[1].mean.x) < 2;  // else 8 apart
+    EXPECT_EQ(by_direction, row.by_direction) << row.diffuse << " " << row.f0 << " " << row.glossy;
+  }
+}
+
 TEST(Cut, SpendsLightsWhereThePdfIs) {
   oracle::Half half = uniform_half(64, 64);
   float left = half.texels[0].position.x, right = half.texels[15].position.x;
