@@ -1,7 +1,8 @@
 // VSGLs as `shading` filtered evaluates them: each with the material of the RSM's texel at its mean and with
 // all of its own power, turned as its surfaces are on average, its normal distribution wider by what its lobe
 // is wider than that texel's. One that reflects no diffuse light is turned as a mirror would be of that lobe.
-// Where the primary light sees no surface at the mean, the light is a Lambert surface.
+// Where the primary light sees no surface at the mean, the light is a Lambert surface, or black in a scene
+// that has no diffuse emitters.
 #version 460
 #include "types.h"
 layout(local_size_x = 64) in;
@@ -51,7 +52,9 @@ void main() {
   reflectance += specular_reflectance(t.surface);
   vec3 incident =
       emitter.perspective != 0u ? safe_normalize(emitter.position - light.mean, f.normal) : -emitter.forward;
-  if (is_mirror) f.normal = safe_normalize(incident + light.specular_axis, f.normal);
+  bool has_lobe = surface && luminance(specular_reflectance(t.surface)) > 0.0;
+  vec3 half_way = safe_normalize(incident + light.specular_axis, f.normal);
+  if (is_mirror) f.normal = has_lobe ? half_way : light.specular_axis;
   // A lit surface faces the primary light; where the mean of many doesn't quite, it is lit at a grazing
   // angle.
   float cosine = dot(f.normal, incident);

@@ -147,6 +147,18 @@ TEST(FilteredLights, OfMetalSendTheirLobeWhereItsAxisIs) {
     turned += glm::distance(normal, dvec3(lights[i].texel->normal)) > 0.02 ? 1 : 0;
   }
   EXPECT_GT(turned, lights.size() / 2);
+  // Where the texel at the mean has no lobe: a Lambert surface that faces where the lobe went.
+  for (oracle::Texel& t : half.texels) {
+    t.diffuse = glm::vec3(0.5f);
+    t.f0 = glm::vec3(0);
+  }
+  const auto lambert = filtered(half, lights);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_near(lambert[i].normal, lights[i].light.specular_axis, 1e-6);
+    EXPECT_EQ(lambert[i].f0, glm::vec3(0));
+    EXPECT_GT(lambert[i].diffuse.x, 0);
+  }
 }
 
 TEST(FilteredLights, WithoutPowerOrSurfaceAreBlackOrLambert) {

@@ -20,8 +20,8 @@ const std::vector<std::string>& importance_names();    // in the order of the en
 Importance parse_importance(const std::string& name);  // throws Error(config)
 
 // Which mean over the view the PDF on the RSM is proportional to, of what a texel's light adds to a pixel:
-// the arithmetic one [VSGL14 §3], as a sampler wants it whose estimates are unbiased; or the quadratic one,
-// where what is left out counts by its square.
+// the arithmetic one [VSGL14 §3], by which a sampler's estimate of the image's mean varies least; or the
+// quadratic one, by which the sum of its pixels' variances is least.
 enum class ImportanceNorm { l1, l2 };
 const std::vector<std::string>& importance_norm_names();        // in the order of the enumeration
 ImportanceNorm parse_importance_norm(const std::string& name);  // throws Error(config)

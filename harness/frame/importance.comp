@@ -1,7 +1,8 @@
 // BRSM: the lights made on the G-buffer shade every RSM texel, without visibility, with the texel's BRDF
 // towards the primary light. IMPORTANCE_L2 0: p ∝ luminance of (Φ × that), the mean over the view of what the
-// texel's light adds to a pixel [VSGL14 §3; Ritschel 2011]. 1: the root of the mean of its square; a light's
-// power stands for how many pixels it is, and c²/power for the sum of their squares.
+// texel's light adds to a pixel [VSGL14 §3; Ritschel 2011]. 1: the root of the mean of its square, from the
+// sum of c²/power. A VPL's power is its share of the view; a VSGL's is that times its reflectance, so that
+// dark pixels count more.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #include "types.h"
@@ -56,7 +57,7 @@ void main() {
     if (!inside[j]) continue;
     float p = flux[j] * (IMPORTANCE_L2 == 1 ? sqrt(sums[j]) : sums[j]);
     p = !surface[j] || p <= 0.0 ? 0.0 : p;  // a NaN or Inf stays: it is for the health gate to see
-    float before = first > 0u ? pdf[texels[j]] : 0.0;
-    pdf[texels[j]] = IMPORTANCE_L2 == 1 ? length(vec2(before, p)) : before + p;
+    float before = first > 0u ? pdf[texels[j]] : 0.0, sum = before + p;
+    pdf[texels[j]] = IMPORTANCE_L2 == 1 ? sum * length(vec2(before, p) / max(sum, 1e-37)) : sum;
   }
 }

@@ -105,7 +105,8 @@ Difference difference(const char* importance, uint32_t lights, ImportanceNorm no
 
 }  // namespace
 
-// Tabled as measured; VPLs sample the integral, VSGLs have their lobes' errors besides.
+// Tabled as measured; VPLs sample the integral, VSGLs have their lobes' errors besides, and at
+// l2 the reflectance in their power.
 TEST(ImportanceOracle, ThePdfIsTheIntegral) {
   struct Row {
     const char* importance;
@@ -139,7 +140,7 @@ TEST(ImportanceOracle, SeesPlantedFaults) {
         Fault{"vpl", "// BRSM:", "float p = flux[j] *", "float p = 2.0 * flux[j] *"},
         Fault{"vpl", "// BRSM:", "p * (p / max(power, 1e-30))", "p * p", 256, ImportanceNorm::l2},
         Fault{"vpl", "// BRSM:", "? sqrt(sums[j]) :", "? sums[j] :", 256, ImportanceNorm::l2},
-        Fault{"vpl", "// BRSM:", "? length(vec2(before, p)) :", "? before + p :", kLarge * kLarge,
+        Fault{"vpl", "// BRSM:", "sum * length(vec2(before, p) / max(sum, 1e-37))", "sum", kLarge * kLarge,
               ImportanceNorm::l2}}) {
     const Difference sound = difference(f.importance, f.lights, f.norm);
     const PlantedTree tree;

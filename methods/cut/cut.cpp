@@ -148,7 +148,12 @@ VSGLBENCH_METHOD(MethodInfo{
     .source = "our own, after Walter et al. 2005, Wan et al. 1988",
     .parameters =
         {{"direction", 0.5, "what a unit normal counts, in RMS distances of the samples", 0.0, 100.0, {}},
-         {"glossy", 3.0, "how many times more it counts where all is reflected specularly", 0.0, 100.0, {}},
+         {"glossy",
+          3.0,
+          "what is added to that where all is reflected specularly, in multiples of it",
+          0.0,
+          100.0,
+          {}},
          {"samples", 4, "samples of the PDF a light that the tree is made of", 1, 64, {}}},
     .case_defaults = {{"shading", "filtered"},
                       {"light_clearance", "sigma"},

@@ -1,4 +1,4 @@
-// Step 4: the light of each texel; `count` where it has no surface, or the PDF chose none. One invocation
+// Step 3: the light of each texel; `count` where it has no surface, or the PDF chose none. One invocation
 // takes a block of BLOCK_X × BLOCK_Y texels down the tree together and parts them only where a cut does.
 #version 460
 #include "cut.glsl"

@@ -1,5 +1,5 @@
-// Step 2, by one workgroup: the tree's space, the samples in it, and the root. A sample without a surface,
-// which an honest PDF doesn't draw, becomes a copy of the first that has one.
+// Step 2, first, by one workgroup: the tree's space, the samples in it, and the root. A sample without a
+// surface, which an honest PDF doesn't draw, becomes a copy of the first that has one.
 #version 460
 layout(set = 0, binding = 0, std430) buffer Samples { float samples[]; };
 #define SAMPLES samples

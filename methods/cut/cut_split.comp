@@ -1,7 +1,7 @@
-// Step 3, once a round: nodes of the tree are split, across the coordinate of largest variance, where that
-// lowers the squared distances to the two parts' means most (Wan et al. 1988; of PLACES places). The parts
-// share the node's lights: of a part's E = Σ|f-mean|², n lights on a surface leave about E/n, whose sum over
-// both parts is least where n is as √E. An image shows of a light also its power, which the number m of
+// Step 2, once a round: nodes of the tree are split, across the coordinate of largest variance, where that
+// lowers the squared distances along it to the two parts' means most (Wan et al. 1988; of PLACES places). The
+// parts share the node's lights: of a part's E = Σ|f-mean|², n lights on a surface leave about E/n, whose sum
+// over both parts is least where n is as √E. An image shows of a light also its power, which the number m of
 // samples stands for: n is as √(E√m).
 #version 460
 layout(set = 0, binding = 0, std430) readonly buffer From { float from[]; };

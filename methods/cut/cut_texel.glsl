@@ -1,6 +1,6 @@
 // A texel as a point of six coordinates: its position, and its shading normal times what that counts: 1, and
-// more by `glossy` times the specular part of the reflectance at normal incidence, since a lobe turns twice as
-// far as its normal. False where the emitter sees no surface.
+// more by `glossy` times the specular part of the reflectance at normal incidence, since a lobe turns twice
+// as far as its normal. False where the emitter sees no surface.
 #ifndef VSGLBENCH_CUT_TEXEL_GLSL
 #define VSGLBENCH_CUT_TEXEL_GLSL
 
