@@ -9,6 +9,17 @@
 #include "method/registry.h"
 
 namespace vsglbench {
+namespace {
+
+// The member of an enumeration that `names` lists in its order. Throws Error(config), naming the nearest.
+template <class Enum>
+Enum named(const char* what, const std::string& name, const std::vector<std::string>& names) {
+  const auto it = std::ranges::find(names, name);
+  if (it != names.end()) return static_cast<Enum>(it - names.begin());
+  throw fail(ErrorKind::config, "no {} '{}'{}", what, name, suggestion(name, names));
+}
+
+}  // namespace
 
 const std::vector<std::string>& importance_names() {
   static const std::vector<std::string> names = {"own", "vsgl", "vpl", "flux"};
@@ -16,10 +27,7 @@ const std::vector<std::string>& importance_names() {
 }
 
 Importance parse_importance(const std::string& name) {
-  const auto& names = importance_names();
-  const auto it = std::find(names.begin(), names.end(), name);
-  if (it != names.end()) return static_cast<Importance>(it - names.begin());
-  throw fail(ErrorKind::config, "no importance '{}'{}", name, suggestion(name, names));
+  return named<Importance>("importance", name, importance_names());
 }
 
 const std::vector<std::string>& importance_norm_names() {
@@ -28,10 +36,7 @@ const std::vector<std::string>& importance_norm_names() {
 }
 
 ImportanceNorm parse_importance_norm(const std::string& name) {
-  const auto& names = importance_norm_names();
-  const auto it = std::find(names.begin(), names.end(), name);
-  if (it != names.end()) return static_cast<ImportanceNorm>(it - names.begin());
-  throw fail(ErrorKind::config, "no importance norm '{}'{}", name, suggestion(name, names));
+  return named<ImportanceNorm>("importance norm", name, importance_norm_names());
 }
 
 const std::vector<std::string>& lattice_names() {
@@ -39,12 +44,7 @@ const std::vector<std::string>& lattice_names() {
   return names;
 }
 
-Lattice parse_lattice(const std::string& name) {
-  const auto& names = lattice_names();
-  const auto it = std::find(names.begin(), names.end(), name);
-  if (it != names.end()) return static_cast<Lattice>(it - names.begin());
-  throw fail(ErrorKind::config, "no lattice '{}'{}", name, suggestion(name, names));
-}
+Lattice parse_lattice(const std::string& name) { return named<Lattice>("lattice", name, lattice_names()); }
 
 ImportancePass::ImportancePass(Stage& stage, const Halves& halves, const MethodInfo& own,
                                const Json& method_parameters, const FrameParameters& p)
