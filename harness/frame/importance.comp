@@ -1,8 +1,8 @@
 // BRSM: the lights made on the G-buffer shade every RSM texel, without visibility, with the texel's BRDF
 // towards the primary light. IMPORTANCE_L2 0: p ∝ luminance of (Φ × that), the mean over the view of what the
 // texel's light adds to a pixel [VSGL14 §3; Ritschel 2011]. 1: the root of the mean of its square, from the
-// sum of c²/power, c being what it adds to one light. A VPL's power is its share of the view; a VSGL's is that times its reflectance, so that
-// dark pixels count more.
+// sum of c²/power, c being a light's part of that luminance. A VPL's power is its share of the view; a VSGL's
+// is that times its reflectance, so that dark pixels count more.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #include "types.h"
